@@ -1,0 +1,101 @@
+// interp: from program text to canonical commands (RS274/NGC, LinuxCNC dialect).
+//
+//   SourceText ─ lexer/parser ─► Block ─ code table, in phase order ─► canon::Command
+//
+// A block is a transaction: it changes the state and emits its commands, or it records its errors
+// and changes nothing. Memory: the text (mapped), parsed blocks of loops and subs, the call stack.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "canon/canon.h"
+#include "tool/tool.h"
+
+namespace aircut::interp {
+
+/// Numbered parameters that outlive a program (the var file).
+struct ParameterFile {
+  std::map<int, double> values;
+};
+/// `number value` per line, ascending. Errors at the line; the file's other lines are ignored.
+ParameterFile read_var(const SourceText& text, Diagnostics& out);
+/// The text of a var file with the parameters that a control keeps.
+std::string write_var(const ParameterFile& parameters);
+
+struct Limits {
+  std::uint64_t max_blocks = 50'000'000;
+  std::uint64_t max_idle_blocks = 10'000'000;  ///< blocks without motion or dwell
+  std::uint64_t max_repeat = 100'000'000;      ///< passes of one loop statement
+  int max_depth = 9;                           ///< nested calls, as the reference
+};
+
+struct Options {
+  canon::Unit machine_unit = canon::Unit::millimetre;  ///< of tool table, var file, #5xxx
+  canon::Unit start_unit = canon::Unit::millimetre;    ///< G20/G21 at the start
+  AxisSet axes;      ///< axes that the machine has; a word of another one is an error
+  AxisValues start;  ///< position at the start: tip in machine coordinates, mm and rad
+  bool block_delete = false;
+  bool optional_stop = false;
+  bool keep_going = true;  ///< after an error, go on and report the others
+  int tool_in_spindle = 0;
+  std::vector<std::string> sub_path;                ///< folders in which called subs are looked for
+  std::vector<std::pair<std::string, double>> set;  ///< --set: "#100" or "#<name>", value
+  std::map<std::string, double> ini;                ///< `section/key` for #<_ini[section]key>
+  double arc_tolerance = 0.0283;                    ///< centre-format radius tolerance, mm
+  Limits limits;
+};
+
+/// What the run says back after a probing move.
+struct ProbeHit {
+  AxisValues tip;  ///< machine coordinates
+  bool tripped = false;
+};
+
+class Interpreter {
+ public:
+  /// `tools` is copied (G10 L1 changes it). `reader` opens called sub files.
+  Interpreter(const SourceText& program, const tool::ToolTable& tools,
+              const ParameterFile& parameters, Options options, SourceReader reader,
+              Diagnostics& diagnostics);
+  ~Interpreter();
+  Interpreter(const Interpreter&) = delete;
+  Interpreter& operator=(const Interpreter&) = delete;
+
+  /// The next command, or nothing at the end of the program (or after an error when !keep_going,
+  /// or a reached limit). Errors are in the diagnostics. The first commands describe the start
+  /// state (units, work offset, plane, feed mode …), so that a stream stands on its own.
+  std::optional<canon::Command> next();
+
+  /// Result of the Probe command that next() handed out last.
+  void resume(const ProbeHit& hit);
+
+  /// Parameters as they are now, for the var file.
+  ParameterFile parameters() const;
+
+  struct Statistics {
+    std::uint64_t lines = 0;   ///< lines executed
+    std::uint64_t blocks = 0;  ///< blocks executed
+    bool ended = false;        ///< M2, M30 or `%` was reached
+    bool limit_reached = false;
+  };
+  Statistics statistics() const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Table of all error kinds of this library with their long text, for `explain` and the docs.
+struct KindText {
+  const char* kind;
+  const char* title;  ///< one line
+  const char* text;   ///< what it means, an example, the remedy
+};
+const std::vector<KindText>& error_kinds();
+
+}  // namespace aircut::interp

@@ -1,0 +1,281 @@
+// machine: an immutable machine, read from a package folder: a tree of links and joints, bodies
+// with meshes, limits and kinematics. Units mm, rad, s. Frames: W world = bed axes; L a link; F
+// gauge face of the spindle; T tool tip; M the frame of X Y Z positions, fixed to the link that
+// carries the work. Link frames: at all joints zero every link frame equals W, so a body's mesh is
+// given in bed axes and moves by the product of exponentials of the joints up to its link (pose of
+// a couple: Trans(sense q u), or rotation by sense q about the line origin + u).
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/base.h"
+#include "config/config.h"
+#include "geometry/geometry.h"
+#include "tool/tool.h"
+
+namespace aircut::machine {
+
+inline constexpr int max_joints = 16;
+/// Values of the driven joints in log order, mm or rad. No heap.
+using JointVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_joints, 1>;
+
+/// Index of a driven joint in log order.
+enum class JointId : int {};
+constexpr int index(JointId id) { return static_cast<int>(id); }
+/// Index into Machine::links(); 0 is the bed.
+enum class LinkId : int {};
+constexpr int index(LinkId id) { return static_cast<int>(id); }
+inline constexpr LinkId bed_link{0};
+
+enum class JointKind : unsigned char { linear, rotary };
+enum class Wrap : unsigned char { none, shortest, modulo };
+
+/// One couple of the tree. A driven joint is in the log and has limits; a passive one (a rod of a
+/// parallel machine) gets its value from the kinematics.
+struct Joint {
+  std::string name;
+  JointKind kind = JointKind::linear;
+  LinkId parent = bed_link;
+  LinkId child = bed_link;
+  Vec3 origin = Vec3::Zero();      ///< a point of the axis, bed axes, all joints zero
+  Vec3 direction = Vec3::UnitZ();  ///< unit vector
+  double sense = 1;                ///< child moves by sense · q
+  int driven = -1;                 ///< JointId, or -1 for a passive joint
+  std::string passive;             ///< name of the kinematics' passive value, or empty
+  // Limits, driven joints only: mm or rad, s. Infinity = no limit.
+  double min = -std::numeric_limits<double>::infinity();
+  double max = std::numeric_limits<double>::infinity();
+  double vmax = 0;
+  double amax = 0;
+  double jmax = std::numeric_limits<double>::infinity();
+  Wrap wrap = Wrap::none;
+  double home = 0;
+};
+
+struct Link {
+  std::string name;
+  LinkId parent = bed_link;
+  int joint = -1;  ///< index into Machine::tree(): the couple that carries it; -1 for the bed
+};
+
+enum class Role : unsigned char {
+  machine,
+  spindle,
+  holder,
+  shank,
+  cutter,
+  fixture,
+  stock,
+  part,
+  probe
+};
+std::string_view to_string(Role role);
+
+struct Color {
+  unsigned char r = 138, g = 143, b = 148;
+};
+
+struct Body {
+  std::string name;  ///< stable, unique: "head", "vise/fixed-jaw"
+  Role role = Role::machine;
+  LinkId link = bed_link;
+  std::shared_ptr<const TriangleMesh> mesh;  ///< in the frame given by X_LB
+  Pose X_LB = Pose::Identity();              ///< mesh frame seen from the link frame
+  Color color;
+  bool collide = true;
+  SourceSpan span;
+};
+
+/// A pair of bodies that is not checked, and why. Names of bodies or of links (then all their
+/// bodies).
+struct Exclusion {
+  std::string a, b;
+  std::string reason;
+};
+
+/// A pose that the controller commands: nine axis values of the tip and the tool length offset.
+struct Target {
+  AxisValues tip;          ///< M frame, mm and rad
+  AxisValues tool_offset;  ///< controlled point = tip + tool_offset
+};
+
+/// Why a pose has no joint values.
+struct ReachError {
+  std::string reason;  ///< "rod 2 is 3.2 mm too short for Z -361.2", ready to be shown
+};
+
+/// What the tip does over an interval of time: a box that holds it, and per axis the length of its
+/// way (≥ the box's size).
+struct TipInterval {
+  AxisValues low, high;
+  AxisValues travel;
+  AxisValues tool_offset;
+};
+
+/// Tool pose ↔ joints, for one family of machines. Stateless and thread-safe.
+class Kinematics {
+ public:
+  virtual ~Kinematics() = default;
+  virtual std::string_view type() const = 0;
+  /// Axes that a program may use on this machine.
+  virtual AxisSet axes() const = 0;
+  virtual int joint_count() const = 0;
+  /// Names of passive values, in the order of passive().
+  virtual std::vector<std::string> passive_names() const { return {}; }
+
+  /// Joints for a target; `near` (same size) chooses among turns and branches.
+  virtual tl::expected<JointVector, ReachError> inverse(const Target& target,
+                                                        const JointVector& near) const = 0;
+  /// Tip for joints (tool_offset as in Target); the error says why it can't be assembled.
+  virtual tl::expected<AxisValues, ReachError> forward(const JointVector& joints,
+                                                       const AxisValues& tool_offset) const = 0;
+  /// Values of the passive joints (mm or rad) for driven ones that inverse() gave.
+  virtual void passive(const JointVector& joints, std::span<double> out) const;
+
+  /// First and second derivative of the joints with respect to a path parameter, given those of the
+  /// tip. Default false: not available, the caller uses differences of inverse().
+  virtual bool rates(const Target& target, const AxisValues& d_tip, const AxisValues& dd_tip,
+                     JointVector& dq, JointVector& ddq) const;
+
+  /// A proven upper bound of the way that every driven joint (first) and passive value (after them)
+  /// travels while the tip moves anywhere inside `tip.low..high` along a path of `tip.travel`.
+  /// False when no finite bound is known (for example, part of the box is out of reach).
+  virtual bool travel_bound(const TipInterval& tip, std::span<double> travel) const = 0;
+};
+
+/// How a rapid moves.
+enum class RapidMode : unsigned char { coordinated, joint, dogleg };
+
+struct Spindle {
+  LinkId link = bed_link;
+  Vec3 gauge = Vec3::Zero();  ///< F origin, bed axes, all joints zero; tool axis is +Z there
+  double min_rpm = 0, max_rpm = 0;
+};
+
+struct ToolChange {
+  double seconds = 0;
+};
+
+enum class UserCodeKind : unsigned char { ignore, time, program, unknown };
+struct UserCodeRule {
+  UserCodeKind kind = UserCodeKind::unknown;
+  double seconds = 0;
+};
+
+/// Scratch space of forward(); the caller keeps it.
+struct LinkPoses {
+  std::vector<Pose> X_WL;  ///< by LinkId
+};
+
+class Machine {
+ public:
+  const std::string& name() const { return name_; }
+  const std::string& folder() const { return folder_; }
+  const std::vector<Link>& links() const { return links_; }
+  /// All couples, parents before children.
+  const std::vector<Joint>& tree() const { return tree_; }
+  int joint_count() const { return static_cast<int>(driven_.size()); }
+  const Joint& joint(JointId id) const {
+    return tree_[static_cast<std::size_t>(driven_[static_cast<std::size_t>(index(id))])];
+  }
+  const std::vector<Body>& bodies() const { return bodies_; }
+  const std::vector<Exclusion>& exclusions() const { return exclusions_; }
+  const Kinematics& kinematics() const { return *kinematics_; }
+  const Spindle& spindle() const { return spindle_; }
+  const ToolChange& tool_change() const { return tool_change_; }
+  RapidMode rapid() const { return rapid_; }
+  LinkId work_link() const { return work_link_; }
+  /// M frame seen from the work link (= from the bed with all joints at zero).
+  const Pose& X_LM() const { return X_LM_; }
+  double collision_tolerance() const { return collision_tolerance_; }  ///< ε_r, mm
+  const std::map<int, UserCodeRule>& user_codes() const { return user_codes_; }
+  /// Joints at home.
+  JointVector home() const;
+  std::optional<LinkId> find_link(const std::string& name) const;
+
+  // Filled by the package reader and by tests that build a machine by hand.
+  std::string name_;
+  std::string folder_;
+  std::vector<Link> links_{Link{"bed"}};
+  std::vector<Joint> tree_;
+  std::vector<int> driven_;  ///< index into tree_ by JointId
+  std::vector<Body> bodies_;
+  std::vector<Exclusion> exclusions_;
+  std::shared_ptr<const Kinematics> kinematics_;
+  Spindle spindle_;
+  ToolChange tool_change_;
+  RapidMode rapid_ = RapidMode::coordinated;
+  LinkId work_link_ = bed_link;
+  Pose X_LM_ = Pose::Identity();
+  double collision_tolerance_ = 0.005;
+  std::map<int, UserCodeRule> user_codes_;
+  std::string default_tools_;       ///< path of the package's tool file, or empty
+  std::string default_parameters_;  ///< path of the package's var file, or empty
+  std::string dialect_ = "linuxcnc";
+};
+
+/// Poses of all links for driven joints.
+void forward(const Machine& machine, const JointVector& joints, LinkPoses& out);
+
+/// How far any point of a body on `link`, all of whose points lie within `radius` of the link's
+/// joint axes (see reach_radii), can move relative to the bed, given each couple's travel bound.
+/// `travel` holds driven joints first, then passive values, as Kinematics::travel_bound gives them.
+///
+/// Relative motion of two links: the sum over the couples on the way between them in the tree,
+/// sliding: travel; rotary: travel · ρ with ρ the largest distance of the body's points from that
+/// axis over the interval (verification.md §3).
+class MotionBound {
+ public:
+  /// `reach` is the radius of body A's points about the origin of its own frame, and c its centre.
+  explicit MotionBound(const Machine& machine);
+  /// Bound for a body on link `a`, relative to link `b`, at link poses `poses` (middle of the
+  /// interval). `centre_a` (world) and `radius_a` hold the body on a, likewise b; the smaller of
+  /// the two directions (A seen from B, B seen from A) is used.
+  double bound(LinkId a, const Vec3& centre_a, double radius_a, LinkId b, const Vec3& centre_b,
+               double radius_b, const LinkPoses& poses, std::span<const double> travel) const;
+
+ private:
+  const Machine* machine_;
+};
+
+/// Bodies that a setup places: fixtures from the package's `fixtures/`.
+struct SetupFixture {
+  std::string name;
+  Vec3 place = Vec3::Zero();  ///< in M coordinates of the work link, mm
+  double angle = 0;           ///< about Z, rad
+  bool present = true;
+  SourceSpan span;
+};
+
+/// What a job adds to the machine.
+struct Setup {
+  std::vector<SetupFixture> fixtures;
+  std::map<int, AxisValues> offsets;  ///< 1 = G54 … 9 = G59.3
+  std::optional<JointVector> start;
+};
+
+/// Reads `machine.toml` at `path` (a package folder, or the file itself) with its meshes.
+/// All problems go to `out`; the value is there only if there was no error.
+Expected<std::shared_ptr<const Machine>> read_machine(const std::string& path, SourceMap& sources,
+                                                      Diagnostics& out);
+/// Reads setup.toml and returns the machine with its fixtures placed as the setup says.
+Expected<Setup> read_setup(const std::string& path, const Machine& machine, SourceMap& sources,
+                           Diagnostics& out);
+Expected<std::shared_ptr<const Machine>> apply_setup(const Machine& machine, const Setup& setup,
+                                                     SourceMap& sources, Diagnostics& out);
+
+/// A package by folder, file, or by name among `search` folders; an unknown name lists the nearest.
+Expected<std::string> find_package(const std::string& what, const std::vector<std::string>& search);
+
+/// One line per problem of a machine that was read: meshes that are open, self-contact is not here
+/// (it needs the collision library). For `machine check`.
+void check_model(const Machine& machine, Diagnostics& out);
+
+}  // namespace aircut::machine

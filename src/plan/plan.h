@@ -1,0 +1,150 @@
+// plan: from canonical commands to timed motion. The path is followed exactly, the speed is the
+// largest that feed, joint speed and joint acceleration allow through the machine's kinematics.
+// Units mm, rad, s.
+//
+//   push(Command) ─► look-ahead window ─► take() ─► Segment: geometry and s(t)
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "canon/canon.h"
+#include "machine/machine.h"
+
+namespace aircut::plan {
+
+/// The tip stands still.
+struct Hold {
+  AxisValues at;
+};
+
+struct Line {
+  AxisValues start, end;
+  double length = 0;  ///< of the feed metric (planner rule: XYZ, else UVW, else ABC in rad)
+};
+
+/// Circle, helix or spiral about a fixed axis; s runs from 0 to length, the angle linearly with it.
+struct Arc {
+  AxisValues start, end;
+  Vec3 centre = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ();
+  Vec3 radial = Vec3::UnitX();  ///< unit vector from the axis to the start
+  double start_radius = 0, end_radius = 0;
+  double angle = 0;  ///< swept, rad, signed about normal
+  double rise = 0;   ///< along normal, mm
+  double length = 0;
+};
+
+/// A corner's blend: quintic Bezier in nine axes, parameter u = s / length.
+struct Blend {
+  std::array<AxisValues, 6> control;
+  double length = 0;
+};
+
+using Path = std::variant<Hold, Line, Arc, Blend>;
+
+double length(const Path& path);
+struct PathPoint {
+  AxisValues p;    ///< position
+  AxisValues d;    ///< first derivative by s
+  AxisValues dd;   ///< second derivative by s
+  AxisValues ddd;  ///< third derivative by s
+};
+PathPoint evaluate(const Path& path, double s);
+/// Box of the positions for s in [s0, s1] and the way of each axis; exact or larger.
+machine::TipInterval bounds(const Path& path, double s0, double s1);
+
+/// From `t` on (s since the segment's start): s(τ) = s + vτ + aτ²/2 + jτ³/6 with τ = time − t.
+struct ProfileKnot {
+  double t = 0, s = 0, v = 0, a = 0, j = 0;
+};
+
+enum class LimitedBy : unsigned char { none, feed, velocity, acceleration, jerk };
+
+/// s(t) as polynomial pieces; the last knot is the end.
+struct SpeedProfile {
+  std::vector<ProfileKnot> knots;
+  double duration() const { return knots.empty() ? 0 : knots.back().t; }
+  struct State {
+    double s = 0, v = 0, a = 0;
+  };
+  /// `t` in [0, duration]; clamped.
+  State at(double t) const;
+  /// Smallest and largest s over [t0, t1] (s never runs backwards).
+  std::pair<double, double> range(double t0, double t1) const { return {at(t0).s, at(t1).s}; }
+};
+
+enum class MotionKind : unsigned char {
+  idle = 0,
+  rapid = 1,
+  feed = 2,
+  arc = 3,
+  tool_change = 4,
+  probe = 5,
+  dwell = 6,
+  sync = 7,
+  blend = 8
+};
+std::string_view to_string(MotionKind kind);
+
+/// Why the run can't go on after a segment.
+struct Failure {
+  std::string kind;     ///< `unreachable`, `singular`
+  std::string message;  ///< whole sentence
+  double fraction = 0;  ///< of the block's path
+  AxisValues pose;      ///< the tip that can't be reached
+};
+
+/// One command carried out: a piece of path with its time law. Commands that do not move give a
+/// segment with a Hold and the time they take (0 for most), so every command reaches the listeners
+/// in order.
+struct Segment {
+  canon::Command command;  ///< the one that this segment carries out
+  MotionKind kind = MotionKind::idle;
+  Path path = Hold{};
+  SpeedProfile profile;
+  double t_start = 0;      ///< program time, s
+  AxisValues tool_offset;  ///< length offset in force
+  double feed = 0;         ///< commanded speed along the feed metric, mm/s (rad/s); 0 = rapid
+  int tool = 0;            ///< in the spindle during the segment
+  double spindle_rpm = 0;  ///< signed, clockwise positive
+  int work_system = 1;     ///< 1 = G54 … 9 = G59.3
+  /// The part of the block's path that this segment covers (a block may be split by blends).
+  double u0 = 0, u1 = 1;
+  LimitedBy limited_by = LimitedBy::none;  ///< what held the speed longest
+  std::optional<Failure> failure;          ///< the run ends here
+
+  double duration() const { return profile.duration(); }
+  double t_end() const { return t_start + duration(); }
+};
+
+struct Options {
+  double period = 0.001;     ///< servo period, s
+  double optional_stop = 0;  ///< s
+};
+
+class Planner {
+ public:
+  /// `start` is where the joints are; the tip follows from forward kinematics.
+  Planner(const machine::Machine& machine, const machine::JointVector& start, Options options);
+  ~Planner();
+  Planner(const Planner&) = delete;
+  Planner& operator=(const Planner&) = delete;
+
+  /// Appends a command. Error: a command that no model exists for (kind `unsupported_code`).
+  Expected<void> push(const canon::Command& command);
+  /// Everything pushed so far becomes final: the last motion ends at rest.
+  void flush();
+  /// The next final segment, in order; empty when more input (or flush) is needed.
+  std::optional<Segment> take();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace aircut::plan

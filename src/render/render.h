@@ -1,0 +1,102 @@
+// render: pictures of a scene. OSMesa, libpng and FreeType stay inside this library.
+// World units mm, Z up.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry/geometry.h"
+#include "machine/machine.h"
+
+namespace aircut::render {
+
+/// 8-bit RGBA, rows from the top.
+struct Image {
+  int width = 0, height = 0;
+  std::vector<unsigned char> rgba;
+};
+std::string png_bytes(const Image& image);  ///< deterministic; libpng, SUB filter, level 3
+
+struct DrawBody {
+  std::string name;
+  std::shared_ptr<const TriangleMesh> mesh;
+  Pose X_WB = Pose::Identity();
+  machine::Color color;
+  bool highlight = false;  ///< drawn in the alarm colour, seen through what covers it
+  bool translucent = false;
+};
+
+enum class LineKind : unsigned char { rapid, feed, arc, done };
+struct DrawLine {
+  LineKind kind = LineKind::feed;
+  std::vector<Vec3> points;  ///< world, mm
+};
+
+struct DrawMarker {
+  Vec3 at = Vec3::Zero();  ///< contact point, world, mm
+};
+
+struct Camera {
+  Vec3 eye = Vec3(1, -1, 1);
+  Vec3 target = Vec3::Zero();
+  Vec3 up = Vec3::UnitZ();
+  double field_of_view = 0.6;  ///< rad, vertical; 0 = orthographic with `height` mm
+  double height = 0;
+};
+/// `iso`, `front`, `top`, `right`, `left`, `back` fitted to a box; or `X,Y,Z,tx,ty,tz`.
+/// Error kind `usage` for anything else, with the nearest name.
+Expected<Camera> camera_by_name(const std::string& name, const Box3& fit, double aspect);
+/// A camera that sees `point` from where it is best visible, `span` mm across: candidate directions
+/// are drawn small into an id buffer and the one that shows most of the `highlight` bodies near the
+/// point wins.
+Camera camera_for_finding(const std::vector<DrawBody>& bodies, const Vec3& point, double span,
+                          double aspect);
+
+struct Caption {
+  std::vector<std::string> left;   ///< lines, top left
+  std::vector<std::string> right;  ///< lines, top right
+  std::string alarm;               ///< shown in red when not empty
+};
+
+struct Scene {
+  std::vector<DrawBody> bodies;
+  std::vector<DrawLine> lines;
+  std::vector<DrawMarker> markers;
+  Caption caption;
+  bool floor = true;
+  bool triad = true;
+};
+
+struct FrameSize {
+  int width = 1280, height = 800;
+};
+
+/// Holds the off-screen context and uploaded meshes (by address). One per thread.
+class Renderer {
+ public:
+  /// Error kind `output_failed`: no GL context, framebuffer incomplete, size out of range.
+  static Expected<Renderer> create(FrameSize size);
+  ~Renderer();
+  Renderer(Renderer&&) noexcept;
+
+  Image draw(const Scene& scene, const Camera& camera);
+  /// Pixels that show each body (index into scene.bodies), for tests and for choosing cameras.
+  std::vector<int> visible_pixels(const Scene& scene, const Camera& camera);
+
+ private:
+  Renderer();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+struct SheetCell {
+  Image image;
+  std::string caption;
+};
+/// Contact sheet: cells in a grid, each scaled down and captioned.
+Image contact_sheet(const std::vector<SheetCell>& cells, int columns, int cell_width,
+                    const std::string& title);
+
+}  // namespace aircut::render

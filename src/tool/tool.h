@@ -1,0 +1,61 @@
+// tool: tools, holders and the tables they come in.
+// A tool assembly is a stack of solids of revolution about +Z with the tip at z = 0 and the gauge
+// face of the spindle at z = gauge_length. Units mm, rad.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/base.h"
+#include "geometry/geometry.h"
+
+namespace aircut::tool {
+
+enum class PieceRole : unsigned char { cutter, shank, holder };
+
+/// One solid of revolution of the assembly, in assembly coordinates (tip at z = 0).
+struct Piece {
+  PieceRole role = PieceRole::cutter;
+  std::string name;  ///< "cutter", "shank", "holder", …: used in findings
+  Profile profile;
+};
+
+struct Tool {
+  int number = 0;
+  int pocket = 0;
+  std::string name;           ///< "10 mm 3-flute end mill"
+  AxisValues offset;          ///< length offset of the tool table (G43 H), mm and rad
+  double diameter = 0;        ///< mm, of the tool table (G41 D)
+  double front_angle = 0;     ///< rad, lathe
+  double back_angle = 0;      ///< rad, lathe
+  int orientation = 0;        ///< 0-9, lathe
+  std::vector<Piece> pieces;  ///< from the tip up; empty: no geometry is known
+  double gauge_length = 0;    ///< tip to gauge face, mm; 0 when there is no geometry
+  double flute_length = 0;    ///< mm
+  double max_rpm = 0;         ///< 0: no limit given
+  SourceSpan span;            ///< where it was defined
+};
+
+struct ToolTable {
+  std::vector<Tool> tools;  ///< in file order
+  bool random_changer = false;
+
+  const Tool* find(int number) const;
+};
+
+/// LinuxCNC tool table (`.tbl`): `T1 P1 Z50 D10 ;comment`. `unit_mm` is the machine unit.
+/// Such a table has no solids.
+Expected<ToolTable> read_tbl(const SourceText& text, double unit_mm, Diagnostics& out);
+
+/// tools.toml: `[[tool]]` with number, name, diameter, flute_length, length, corner radius or point
+/// angle, shank and holder pieces (docs/machine-package.md). `holders` resolves a holder's name to
+/// the text of `holders/NAME.toml`.
+Expected<ToolTable> read_toml(const SourceText& text, const SourceReader& holders,
+                              Diagnostics& out);
+
+/// By extension: .tbl or .toml. `folder` is where holders are looked for.
+Expected<ToolTable> read_tools(const std::string& path, double unit_mm, SourceMap& sources,
+                               Diagnostics& out);
+
+}  // namespace aircut::tool
