@@ -49,14 +49,21 @@ class Table {
   std::vector<Table> tables(const std::string& key);
   /// The keys in the order of the file. For tables whose keys are names (all become known).
   std::vector<std::string> keys();
+  /// Is the value an array whose first element is a table? (For keys that take either form.)
+  bool holds_tables(const std::string& key) const;
+  /// Span of the element `item` of an array; of the value when there is no such element.
+  SourceSpan item_span(const std::string& key, std::size_t item) const;
 
   /// Records an error of the reader's kind at a key's value.
   void error(const std::string& key, const std::string& message);
+  /// Records a diagnostic of any kind and place; it takes its turn in the order of the file.
+  void report(Diagnostic diagnostic);
   /// Declares a key known without reading it, for the "did you mean" of other keys.
   void know(const std::string& key);
 
  private:
   friend class Reader;
+  friend struct Document;
   struct Node;
   explicit Table(Node* node) : node_(node) {}
   Node* node_;
