@@ -4,6 +4,7 @@
 
 #include "base/diagnostic.h"
 #include "base/expected.h"
+#include "base/hash.h"
 #include "base/output_file.h"
 #include "base/overloaded.h"
 #include "base/source.h"

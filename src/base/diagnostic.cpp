@@ -135,7 +135,7 @@ std::string format_human(const Diagnostic& d, TextStyle style) {
   std::string out = std::string(severity_paint(d.severity, style)) +
                     std::string(to_string(d.severity)) + "[" + d.kind + "]" + off +
                     paint(style, "\x1b[1m") + ": " + printable(d.message) + off + "\n";
-  out += excerpt(d.span, "", style);
+  out += excerpt(d.span, d.remark, style);
   const std::string margin(d.span ? std::to_string(d.span.line).size() : 1, ' ');
   for (const Note& note : d.notes)
     out += margin + " = " + note.label + ": " + printable(note.text) + "\n";

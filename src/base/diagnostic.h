@@ -24,6 +24,7 @@ struct Diagnostic {
   std::string message;  ///< one sentence: what is wrong; then what would be right
   SourceSpan span = {};
   std::vector<Note> notes = {};
+  std::string remark = {};  ///< stands after the underline
 };
 
 /// An error without a place in a text.

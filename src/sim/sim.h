@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -62,15 +63,12 @@ enum class Kind : unsigned char {
   self_overlap,
   tool_change_collision,
   overtravel,
-  overtravel_margin,
   unreachable,
   singular,
-  velocity_limit,
-  acceleration_limit,
-  no_tool_geometry,
   tool_missing,
   not_executed,
-  unproven,
+  not_checked,
+  limit_reached,
 };
 std::string_view to_string(Kind kind);
 Severity severity_of(Kind kind);
@@ -111,27 +109,141 @@ struct Finding {
 enum class Verdict : unsigned char { pass, fail, unknown };
 std::string_view to_string(Verdict verdict);
 
+/// Collects findings in the order in which they are raised; finish() sorts and numbers them.
+class Findings {
+ public:
+  explicit Findings(std::size_t keep = 10'000) : keep_(keep) {}
+  /// Beyond `keep` rows only errors' count is kept, and the verdict can't be pass.
+  void add(Finding finding);
+  std::size_t size() const { return list_.size(); }
+  std::size_t dropped() const { return dropped_; }
+  /// Sorted by (t_first, kind, bodies), numbered from 1; rows that continue one another in the next
+  /// block share an episode.
+  std::vector<Finding> finish();
+
+ private:
+  std::size_t keep_;
+  std::size_t dropped_ = 0;
+  std::vector<Finding> list_;
+};
+
 struct Summary {
   Verdict verdict = Verdict::unknown;
-  double cycle_time = 0;
-  double cut_time = 0, rapid_time = 0, dwell_time = 0, tool_change_time = 0;
+  double cycle_time = 0;  ///< s, planned
+  double feed_time = 0, rapid_time = 0, dwell_time = 0, tool_change_time = 0;
   std::uint64_t blocks = 0, moves = 0;
-  std::uint64_t pairs_watched = 0;
-  std::uint64_t distance_queries = 0;
-  double share_clear = 0, share_hit = 0, share_unresolved = 0;  ///< of checked pair-time
-  std::map<std::string, std::pair<double, double>> joint_extremes;
+  std::size_t findings_dropped = 0;
+
+  struct Joint {
+    std::string name;
+    bool rotary = false;
+    double low = 0, high = 0;  ///< reached, within 0.01 mm or 0.01°
+  };
+  std::vector<Joint> joints;
+
+  struct Collision {
+    std::size_t bodies = 0, pairs = 0;
+    std::uint64_t distance_queries = 0, overlap_queries = 0;
+    double clear = 0, hit = 0, unresolved = 0;  ///< shares of checked pair-time; their sum is 1
+    std::vector<std::string> exclusions;        ///< "a – b: reason"
+  } collision;
+
   std::vector<std::string> unchecked;  ///< what was not checked, in words
   bool interrupted = false;
+  bool program_refused = false;  ///< the interpreter refused a block
+};
+
+/// Looks at intervals of motion and reports findings.
+class Check {
+ public:
+  virtual ~Check() = default;
+  /// Before the first segment, machine at `start`.
+  virtual void start(const Scene&, const JointVector&, Findings&) {}
+  virtual void step(const Step&, Findings&) = 0;
+  /// The scene's bodies changed (a tool change) at the end of `step`, machine at `joints`.
+  virtual void scene_changed(const Step&, const JointVector&, Findings&) {}
+  virtual void finish(Summary&) {}
 };
 
 /// Looks at everything and writes it down.
 class Observer {
  public:
   virtual ~Observer() = default;
-  virtual void on_start(const Scene&) {}
+  virtual void on_start(const Scene&, const JointVector&) {}
   virtual void on_step(const Step&) {}
-  virtual void on_finding(const Step&, const Finding&) {}
-  virtual void on_finish(const Scene&, const std::vector<Finding>&, const Summary&) {}
+  virtual void on_finish(const Summary&) {}
 };
+
+struct CheckOptions {
+  bool limits = true;
+  bool collision = true;
+  double near = 2;             ///< mm; 0 = near misses are not looked for
+  double touch = 0.001;        ///< ε_c, mm
+  std::size_t detailed = 100;  ///< collisions whose depth is worked out; the others have none
+};
+std::unique_ptr<Check> make_travel_check();
+std::unique_ptr<Check> make_collision_check(const CheckOptions& options);
+
+/// Fields of a finding that follow from the step: place, tool, motion kind, feed, joints at t.
+Finding finding_at(Kind kind, const Step& step, double t);
+/// Fraction of the block's path that is done at program time t.
+double fraction_at(const Step& step, double t);
+
+/// Drives the machine through segments.
+class Simulator {
+ public:
+  Simulator(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools,
+            const JointVector& start, const CheckOptions& options);
+
+  /// Observers are told in the order in which they were added.
+  void add_observer(Observer& observer) { observers_.push_back(&observer); }
+  /// Puts a tool into the spindle before the run.
+  void load_tool(int number) { scene_.load_tool(number); }
+  void start();
+  /// Moves, checks, tells the observers.
+  void step(const plan::Segment& segment);
+  /// True after a segment with a failure: nothing can follow.
+  bool stopped() const { return stopped_; }
+  /// Notes something that was not checked: the verdict can't be pass.
+  void not_checked(const std::string& what);
+
+  struct Result {
+    std::vector<Finding> findings;
+    Summary summary;  ///< without the verdict
+  };
+  Result finish();
+
+  const Scene& scene() const { return scene_; }
+  const JointVector& joints() const { return joints_; }
+
+ private:
+  void count(const plan::Segment& segment);
+  void user_code(const Step& step, const canon::UserCode& code);
+
+  Scene scene_;
+  JointVector joints_;
+  std::vector<std::unique_ptr<Check>> checks_;
+  std::vector<Observer*> observers_;
+  Findings findings_;
+  Summary summary_;
+  bool stopped_ = false;
+};
+
+struct RunOptions {
+  double max_time = 360'000;                                  ///< simulated seconds
+  std::function<bool()> stop_requested;                       ///< asked every block; may be empty
+  std::function<void(double t, const SourceSpan&)> progress;  ///< may be empty
+};
+
+/// The main loop: program → commands → segments → machine. Errors of the program are in the
+/// interpreter's diagnostics; after the first one nothing moves any more, as on the control, and
+/// only the text is checked on.
+Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagnostics,
+                      plan::Planner& planner, Simulator& simulator, const RunOptions& options);
+
+/// fail if a finding or diagnostic is at or above `fail_on`, else unknown if anything was not
+/// checked, else pass.
+Verdict judge(const std::vector<Finding>& findings, const Summary& summary,
+              const Diagnostics& diagnostics, std::optional<Severity> fail_on);
 
 }  // namespace aircut::sim

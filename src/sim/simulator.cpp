@@ -1,0 +1,115 @@
+#include <cmath>
+
+#include "sim/sim.h"
+
+namespace aircut::sim {
+
+Simulator::Simulator(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools,
+                     const JointVector& start, const CheckOptions& options)
+    : scene_(std::move(machine), tools), joints_(start) {
+  if (options.limits) checks_.push_back(make_travel_check());
+  if (options.collision) checks_.push_back(make_collision_check(options));
+}
+
+void Simulator::not_checked(const std::string& what) { summary_.unchecked.push_back(what); }
+
+void Simulator::start() {
+  for (const auto& check : checks_) check->start(scene_, joints_, findings_);
+  for (Observer* observer : observers_) observer->on_start(scene_, joints_);
+}
+
+void Simulator::step(const plan::Segment& segment) {
+  const motion::JointMotion motion(scene_.machine(), segment, joints_);
+  const Step step{scene_, motion, segment};
+  count(segment);
+
+  for (const auto& check : checks_) check->step(step, findings_);
+  for (Observer* observer : observers_) observer->on_step(step);
+  if (const auto end = motion.at(motion.t1())) joints_ = *end;
+
+  if (segment.failure) {
+    Finding f = finding_at(segment.failure->kind == "singular" ? Kind::singular : Kind::unreachable,
+                           step, segment.t_end());
+    f.message = segment.failure->message;
+    f.u_first = f.u_end = segment.failure->fraction;
+    f.tip = segment.failure->pose;
+    findings_.add(f);
+    stopped_ = true;
+    return;
+  }
+  int tool = -1;
+  if (const auto* change = std::get_if<canon::ChangeTool>(&segment.command.action))
+    tool = change->number;
+  if (const auto* number = std::get_if<canon::SetToolNumber>(&segment.command.action))
+    tool = number->number;
+  if (tool >= 0) {
+    scene_.load_tool(tool);
+    const tool::Tool* loaded = scene_.tool();
+    if (tool > 0 && !loaded) {
+      Finding f = finding_at(Kind::tool_missing, step, segment.t_end());
+      f.message = "tool T" + std::to_string(tool) + " is not in the tool table";
+      f.remedy = "add it to the tool file, or name another file with --tools";
+      findings_.add(f);
+    } else if (loaded && loaded->pieces.empty()) {
+      Finding f = finding_at(Kind::not_checked, step, segment.t_end());
+      f.message = "tool T" + std::to_string(tool) +
+                  " has no geometry, so collisions of tool and holder can't be checked";
+      f.remedy = "describe cutter, shank and holder in a tools.toml";
+      f.makes_unknown = true;
+      findings_.add(f);
+    }
+    for (const auto& check : checks_) check->scene_changed(step, joints_, findings_);
+  }
+  if (const auto* code = std::get_if<canon::UserCode>(&segment.command.action))
+    user_code(step, *code);
+}
+
+void Simulator::user_code(const Step& step, const canon::UserCode& code) {
+  const auto& rules = scene_.machine().user_codes();
+  const auto rule = rules.find(code.code);
+  if (rule != rules.end() && (rule->second.kind == machine::UserCodeKind::ignore ||
+                              rule->second.kind == machine::UserCodeKind::time))
+    return;
+  Finding f = finding_at(Kind::not_executed, step, step.segment.t_end());
+  f.message =
+      "M" + std::to_string(code.code) + " runs a program of the control, which is never run here";
+  f.remedy = "say in the machine's [mcodes] that it can be ignored: M" + std::to_string(code.code) +
+             " = { kind = \"ignore\" }";
+  f.makes_unknown = true;
+  findings_.add(f);
+}
+
+void Simulator::count(const plan::Segment& segment) {
+  const double time = segment.duration();
+  summary_.cycle_time = std::max(summary_.cycle_time, segment.t_end());
+  if (canon::is_motion(segment.command.action)) ++summary_.moves;
+  switch (segment.kind) {
+    case plan::MotionKind::rapid:
+      summary_.rapid_time += time;
+      break;
+    case plan::MotionKind::feed:
+    case plan::MotionKind::arc:
+    case plan::MotionKind::blend:
+    case plan::MotionKind::probe:
+    case plan::MotionKind::sync:
+      summary_.feed_time += time;
+      break;
+    case plan::MotionKind::tool_change:
+      summary_.tool_change_time += time;
+      break;
+    case plan::MotionKind::idle:
+    case plan::MotionKind::dwell:
+      summary_.dwell_time += time;
+      break;
+  }
+}
+
+Simulator::Result Simulator::finish() {
+  for (const auto& check : checks_) check->finish(summary_);
+  summary_.findings_dropped = findings_.dropped();
+  Result result{findings_.finish(), summary_};
+  for (Observer* observer : observers_) observer->on_finish(result.summary);
+  return result;
+}
+
+}  // namespace aircut::sim
