@@ -19,7 +19,8 @@ using Profile = std::vector<ProfilePoint>;
 
 /// A closed mesh that contains the solid of revolution and is at most `tolerance` mm larger in
 /// radius (the safe side for a collision check). The number of facets follows from the largest
-/// radius: R (1/cos(π/n) − 1) ≤ tolerance, n at least 12 and a multiple of 4.
+/// radius: R (1/cos(π/n) − 1) ≤ tolerance, n at least 12 and a multiple of 4; a tolerance below a
+/// millionth of R counts as that. Empty when no point has r > 0.
 TriangleMesh revolve(const Profile& profile, double tolerance);
 
 }  // namespace aircut

@@ -1,0 +1,15 @@
+// STL text and binary, private to the geometry library.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "geometry/mesh_file.h"
+
+namespace aircut::geometry {
+
+/// Triangles as they stand in the file, in its unit, not welded. Errors are sentences that go after
+/// the file's name.
+tl::expected<TriangleMesh, std::string> read_stl(std::string_view bytes, std::size_t max_triangles);
+
+}  // namespace aircut::geometry
