@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -227,14 +228,20 @@ std::string to_json(const Command& command);
 /// stream said before (units, offsets), so one instance sees the whole stream.
 class Rs274Writer {
  public:
-  explicit Rs274Writer(Unit machine_unit = Unit::inch);
+  /// `start_unit` is in force until the stream names a unit.
+  explicit Rs274Writer(Unit start_unit = Unit::inch);
   ~Rs274Writer();
   Rs274Writer(Rs274Writer&&) noexcept;
   /// The line(s) of one command, each with its line end; empty when the reference prints nothing.
+  /// Commands of block 0 describe the start state: they are told by the six lines before the first
+  /// block.
   std::string write(const Command& command);
+  /// What is still owed after the last command (the end of a synchronised motion).
+  std::string finish();
+
+  struct State;  ///< private to the writer
 
  private:
-  struct State;
   std::unique_ptr<State> state_;
 };
 
