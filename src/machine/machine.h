@@ -49,6 +49,7 @@ struct Joint {
   double sense = 1;                ///< child moves by sense · q
   int driven = -1;                 ///< JointId, or -1 for a passive joint
   std::string passive;             ///< name of the kinematics' passive value, or empty
+  int passive_index = -1;          ///< its place in Kinematics::passive(); -1 = found by name
   // Limits, driven joints only: mm or rad, s. Infinity = no limit.
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
@@ -127,7 +128,8 @@ class Kinematics {
   /// Axes that a program may use on this machine.
   virtual AxisSet axes() const = 0;
   virtual int joint_count() const = 0;
-  /// Names of passive values, in the order of passive().
+  /// Names of passive values, in the order of passive(). A name that ends in `_angle` is an angle
+  /// for a rotary couple, any other a length for a sliding one.
   virtual std::vector<std::string> passive_names() const { return {}; }
 
   /// Joints for a target; `near` (same size) chooses among turns and branches.
@@ -150,6 +152,25 @@ class Kinematics {
   virtual bool travel_bound(const TipInterval& tip, std::span<double> travel) const = 0;
 };
 
+/// A joint for each axis, in this order: joint = tip + tool offset − offset. `offset` is the gauge
+/// point in M coordinates with all joints at zero.
+std::shared_ptr<const Kinematics> make_identity(const std::vector<Axis>& axes,
+                                                const Vec3& offset = Vec3::Zero());
+
+/// Two sliders on parallel guides carry a platform by two rods, a third one carries the whole plane
+/// along Y (kinematics/ox_glide.cpp has the drawing). Joints: s1, s2, s3. Passive values:
+/// `rod1_angle`, `rod2_angle` (about +Y, 0 = the rod hangs straight down), `platform_x`,
+/// `platform_z` (the platform point in M coordinates).
+struct OxGlide {
+  enum class Form : unsigned char { crossed, extended };
+  Form form = Form::crossed;
+  double l1 = 302, l2 = 432;   ///< lengths of the rods, mm
+  double p1 = 55, p2 = 65;     ///< rod joints left and right of the platform point, mm
+  double d = 74;               ///< guide 1 lies at z = −d, guide 2 at z = +d, mm
+  Vec3 offset = Vec3::Zero();  ///< gauge point seen from the platform point, mm
+};
+std::shared_ptr<const Kinematics> make_ox_glide(const OxGlide& parameters);
+
 /// How a rapid moves.
 enum class RapidMode : unsigned char { coordinated, joint, dogleg };
 
@@ -167,6 +188,15 @@ enum class UserCodeKind : unsigned char { ignore, time, program, unknown };
 struct UserCodeRule {
   UserCodeKind kind = UserCodeKind::unknown;
   double seconds = 0;
+};
+
+/// Bodies that belong together and are placed by a setup.
+struct Fixture {
+  std::string name;
+  LinkId link = bed_link;
+  Vec3 place = Vec3::Zero();  ///< M coordinates of its origin, mm
+  double angle = 0;           ///< about Z, rad
+  std::vector<Body> bodies;   ///< X_LB: seen from the fixture's own origin
 };
 
 /// Scratch space of forward(); the caller keeps it.
@@ -187,6 +217,7 @@ class Machine {
   }
   const std::vector<Body>& bodies() const { return bodies_; }
   const std::vector<Exclusion>& exclusions() const { return exclusions_; }
+  const std::vector<Fixture>& fixtures() const { return fixtures_; }
   const Kinematics& kinematics() const { return *kinematics_; }
   const Spindle& spindle() const { return spindle_; }
   const ToolChange& tool_change() const { return tool_change_; }
@@ -208,6 +239,7 @@ class Machine {
   std::vector<int> driven_;  ///< index into tree_ by JointId
   std::vector<Body> bodies_;
   std::vector<Exclusion> exclusions_;
+  std::vector<Fixture> fixtures_;  ///< whose bodies are in bodies_, after the machine's own
   std::shared_ptr<const Kinematics> kinematics_;
   Spindle spindle_;
   ToolChange tool_change_;
@@ -224,32 +256,42 @@ class Machine {
 /// Poses of all links for driven joints.
 void forward(const Machine& machine, const JointVector& joints, LinkPoses& out);
 
-/// How far any point of a body on `link`, all of whose points lie within `radius` of the link's
-/// joint axes (see reach_radii), can move relative to the bed, given each couple's travel bound.
-/// `travel` holds driven joints first, then passive values, as Kinematics::travel_bound gives them.
-///
-/// Relative motion of two links: the sum over the couples on the way between them in the tree,
-/// sliding: travel; rotary: travel · ρ with ρ the largest distance of the body's points from that
-/// axis over the interval (verification.md §3).
+/// How far a body can move, seen from another one, while each couple travels at most so far:
+/// the sum over the couples on the way between their links; sliding: travel; rotary: travel · ρ,
+/// ρ the largest distance of the body's points from that axis at any time of the interval, which
+/// the couples between the axis and the body enlarge (verification.md §3).
 class MotionBound {
  public:
-  /// `reach` is the radius of body A's points about the origin of its own frame, and c its centre.
   explicit MotionBound(const Machine& machine);
-  /// Bound for a body on link `a`, relative to link `b`, at link poses `poses` (middle of the
-  /// interval). `centre_a` (world) and `radius_a` hold the body on a, likewise b; the smaller of
-  /// the two directions (A seen from B, B seen from A) is used.
+  /// Upper bound (mm) of how far any point of the body on link `a` is displaced, seen from link
+  /// `b`, or any point of the body on `b` seen from `a`, whichever bound is smaller, between any
+  /// two moments of an interval. (Either one bounds how much the distance of the bodies changes.)
+  /// `poses` belong to any moment of it. The sphere `centre_a` (world, at that moment), `radius_a`
+  /// holds the body on a, likewise b. `travel`: way of each driven joint in the interval, then of
+  /// each passive value, as Kinematics::travel_bound gives them.
   double bound(LinkId a, const Vec3& centre_a, double radius_a, LinkId b, const Vec3& centre_b,
                double radius_b, const LinkPoses& poses, std::span<const double> travel) const;
 
  private:
+  struct Ball;
+  LinkId common(LinkId a, LinkId b) const;
+  double over(int couple, double moved, const Ball& ball, const LinkPoses& poses,
+              std::span<const double> travel) const;
+  double up(LinkId from, LinkId to, const Ball& ball, const LinkPoses& poses,
+            std::span<const double> travel) const;
+  double down(LinkId from, LinkId to, double moved, const Ball& ball, const LinkPoses& poses,
+              std::span<const double> travel) const;
+
   const Machine* machine_;
+  std::vector<std::size_t> travel_index_;  ///< into `travel`, by index into Machine::tree()
+  std::vector<int> depth_;                 ///< couples from the bed, by LinkId
 };
 
 /// Bodies that a setup places: fixtures from the package's `fixtures/`.
 struct SetupFixture {
   std::string name;
-  Vec3 place = Vec3::Zero();  ///< in M coordinates of the work link, mm
-  double angle = 0;           ///< about Z, rad
+  std::optional<Vec3> place;    ///< M coordinates, mm; as the fixture's file says if not given
+  std::optional<double> angle;  ///< about Z, rad; likewise
   bool present = true;
   SourceSpan span;
 };

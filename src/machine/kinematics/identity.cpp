@@ -1,0 +1,134 @@
+// identity: every joint is an axis of the program.
+//
+//   q_i = tip[axis_i] + tool_offset[axis_i] − offset[axis_i]
+//
+// `offset` (X Y Z only) is the gauge point in M coordinates with all joints at zero. The formula is
+// linear, so forward, rates and travel bounds are exact.
+#include <algorithm>
+
+#include "machine/kinematics/kinematics_table.h"
+
+namespace aircut::machine {
+
+namespace {
+
+class Identity final : public Kinematics {
+ public:
+  Identity(std::vector<Axis> axes, const Vec3& offset) : axis_of_joint_(std::move(axes)) {
+    for (const Axis axis : axis_of_joint_) axes_.add(axis);
+    offset_[Axis::x] = offset.x();
+    offset_[Axis::y] = offset.y();
+    offset_[Axis::z] = offset.z();
+  }
+
+  std::string_view type() const override { return "identity"; }
+  AxisSet axes() const override { return axes_; }
+  int joint_count() const override { return static_cast<int>(axis_of_joint_.size()); }
+
+  tl::expected<JointVector, ReachError> inverse(const Target& target,
+                                                const JointVector&) const override {
+    return joints_of(target.tip + target.tool_offset - offset_);
+  }
+
+  tl::expected<AxisValues, ReachError> forward(const JointVector& joints,
+                                               const AxisValues& tool_offset) const override {
+    AxisValues tip;
+    for (std::size_t i = 0; i < axis_of_joint_.size(); ++i) {
+      const Axis axis = axis_of_joint_[i];
+      tip[axis] = joints[static_cast<Eigen::Index>(i)] + offset_[axis] - tool_offset[axis];
+    }
+    // An axis without a joint stays where the offset puts it.
+    for (const Axis axis : {Axis::x, Axis::y, Axis::z})
+      if (!axes_.has(axis)) tip[axis] = offset_[axis] - tool_offset[axis];
+    return tip;
+  }
+
+  bool rates(const Target&, const AxisValues& d_tip, const AxisValues& dd_tip, JointVector& dq,
+             JointVector& ddq) const override {
+    dq = joints_of(d_tip);
+    ddq = joints_of(dd_tip);
+    return true;
+  }
+
+  bool travel_bound(const TipInterval& tip, std::span<double> travel) const override {
+    for (std::size_t i = 0; i < axis_of_joint_.size(); ++i)
+      travel[i] = tip.travel[axis_of_joint_[i]];
+    return true;
+  }
+
+ private:
+  JointVector joints_of(const AxisValues& values) const {
+    JointVector joints(joint_count());
+    for (std::size_t i = 0; i < axis_of_joint_.size(); ++i)
+      joints[static_cast<Eigen::Index>(i)] = values[axis_of_joint_[i]];
+    return joints;
+  }
+
+  std::vector<Axis> axis_of_joint_;
+  AxisSet axes_;
+  AxisValues offset_;
+};
+
+// One axis letter per joint; nothing if the text has another form.
+std::optional<std::vector<Axis>> axes_of_letters(const std::string& letters) {
+  std::vector<Axis> axes;
+  for (const char c : letters) {
+    const auto axis = axis_of_letter(c);
+    if (!axis) return std::nullopt;
+    axes.push_back(*axis);
+  }
+  return axes;
+}
+
+bool check_kinds(KinematicsInput& input, const std::string& key, const std::vector<Axis>& axes) {
+  bool good = true;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    const std::string name(1, letter(axes[i]));
+    if (std::count(axes.begin(), axes.end(), axes[i]) > 1 &&
+        std::find(axes.begin(), axes.end(), axes[i]) == axes.begin() + static_cast<long>(i)) {
+      input.table.error(key, "two joints for axis " + name +
+                                 " (a gantry) are not supported; each letter may stand once");
+      good = false;
+    }
+    const bool rotary = input.driven[i].kind == JointKind::rotary;
+    if (rotary == is_rotary(axes[i])) continue;
+    input.table.error(key, "axis " + name + " needs a " +
+                               (is_rotary(axes[i]) ? "rotary" : "linear") + " joint, '" +
+                               input.driven[i].name + "' is " + (rotary ? "rotary" : "linear"));
+    good = false;
+  }
+  return good;
+}
+
+}  // namespace
+
+std::shared_ptr<const Kinematics> make_identity(const std::vector<Axis>& axes, const Vec3& offset) {
+  return std::make_shared<Identity>(axes, offset);
+}
+
+std::shared_ptr<const Kinematics> read_identity(KinematicsInput& input) {
+  const Vec3 offset = point(input.table, "offset", Vec3::Zero(), input.unit_mm);
+  const bool given = input.table.has("coordinates");
+  const std::string key = given ? "coordinates" : "type";
+  std::string letters = input.table.text("coordinates", "");
+  if (!given)
+    for (const Joint& joint : input.driven) {
+      if (joint.name.size() != 1 || !axis_of_letter(joint.name[0])) {
+        input.table.error(key, "joint '" + joint.name +
+                                   "' is not named by an axis letter; say with 'coordinates' which "
+                                   "axis each joint moves, like coordinates = \"XYZ\"");
+        return nullptr;
+      }
+      letters += joint.name;
+    }
+  const auto axes = axes_of_letters(letters);
+  if (!axes || axes->size() != input.driven.size()) {
+    input.table.error(key, "'coordinates' needs one letter of XYZABCUVW for each of the " +
+                               std::to_string(input.driven.size()) + " driven axes, this is '" +
+                               letters + "'");
+    return nullptr;
+  }
+  return check_kinds(input, key, *axes) ? make_identity(*axes, offset) : nullptr;
+}
+
+}  // namespace aircut::machine
