@@ -1,0 +1,70 @@
+// Pictures of a run: at times, lines, tool changes and findings; and a contact sheet.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/render.h"
+#include "sim/sim.h"
+
+namespace aircut::report {
+
+struct FrameSpec {
+  std::optional<int> count;     ///< evenly over the run
+  std::optional<double> every;  ///< s
+  std::vector<double> at;       ///< s
+  std::vector<std::uint32_t> lines;
+  bool findings = false;
+  bool tool_changes = false;
+
+  bool any() const {
+    return count || every || !at.empty() || !lines.empty() || findings || tool_changes;
+  }
+};
+/// Adds one `--frames` value: every=2s, at=12.5,80, line=128, tool-change, finding, count=24.
+/// Error kind `usage`.
+Expected<void> add_frames(FrameSpec& spec, const std::string& text);
+
+struct FrameOptions {
+  FrameSpec spec;
+  std::string camera = "work";  ///< `work` (the work and the tool), or a name of camera_by_name
+  render::FrameSize size;
+  std::string program;  ///< for the caption
+};
+
+/// A moment of the run that may become a picture.
+struct Snapshot {
+  double t = 0;
+  machine::JointVector joints;
+  int tool = 0;
+  SourceSpan span;
+  plan::MotionKind kind = plan::MotionKind::idle;
+  double feed = 0;  ///< achieved, mm/s
+};
+
+/// Bodies of a scene at joints, ready to draw.
+std::vector<render::DrawBody> draw_bodies(const sim::Scene& scene,
+                                          const machine::JointVector& joints);
+
+/// Watches a run in bounded memory and draws afterwards.
+class FrameMaker final : public sim::Observer {
+ public:
+  FrameMaker(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools,
+             FrameOptions options);
+  ~FrameMaker() override;
+  void on_start(const sim::Scene& scene, const machine::JointVector& joints) override;
+  void on_step(const sim::Step& step) override;
+
+  /// Draws everything into `folder` (frames/*.png, sheet.png) and names each finding's picture.
+  /// Returns the paths written, relative to `folder`.
+  Expected<std::vector<std::string>> write(const std::string& folder,
+                                           std::vector<sim::Finding>& findings);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace aircut::report

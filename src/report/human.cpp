@@ -1,0 +1,219 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "report/report.h"
+
+namespace aircut::report {
+
+namespace {
+
+constexpr double degrees = 180 / M_PI;
+
+std::string joints_text(const machine::JointVector& q, const RunReport& report) {
+  std::string out;
+  for (int j = 0; j < q.size(); ++j) {
+    const auto i = static_cast<std::size_t>(j);
+    if (i >= report.joint_names.size()) break;
+    if (!out.empty()) out += "  ";
+    out += report.joint_names[i] + " " + fixed(report.joint_rotary[i] ? q[j] * degrees : q[j], 3);
+  }
+  return out;
+}
+
+std::string seconds(double t) { return fixed(t, 3) + " s"; }
+
+// 1:02:03.4, as a machinist reads a cycle time.
+std::string clock(double t) {
+  const auto tenths = static_cast<long long>(std::llround(t * 10));
+  const long long h = tenths / 36000, m = tenths / 600 % 60, s = tenths / 10 % 60;
+  const auto two = [](long long v) { return (v < 10 ? "0" : "") + std::to_string(v); };
+  return (h > 0 ? std::to_string(h) + ":" : "") + (h > 0 ? two(m) : std::to_string(m)) + ":" +
+         two(s) + "." + std::to_string(tenths % 10);
+}
+
+std::string plural(std::uint64_t n, const std::string& word) {
+  return std::to_string(n) + " " + word + (n == 1 ? "" : "s");
+}
+
+// A share in percent; 100 % only if it is all of it.
+std::string percent(double share) {
+  if (share >= 1) return "100 %";
+  return fixed(std::min(share * 100, 99.99), 2) + " %";
+}
+
+std::string underline_remark(const sim::Finding& f) {
+  const auto whole = [](double u) { return fixed(u * 100, 0); };
+  switch (f.kind) {
+    case sim::Kind::collision:
+      return "contact from " + whole(f.u_first) + " % to " + whole(f.u_end) +
+             " % of this move, t = " + fixed(f.t_first, 3) + " … " + seconds(f.t_end);
+    case sim::Kind::near_miss:
+      return "nearest at " + whole(f.u_first) + " % of this move, t = " + seconds(f.t_first);
+    case sim::Kind::overtravel:
+      return "outside from " + whole(f.u_first) + " % to " + whole(f.u_end) +
+             " % of this move, t = " + fixed(f.t_first, 3) + " … " + seconds(f.t_end);
+    case sim::Kind::unreachable:
+    case sim::Kind::singular:
+      return "from " + fixed(f.u_first * 100, 1) + " % of this move on, t = " + seconds(f.t_first);
+    case sim::Kind::self_overlap:
+    case sim::Kind::tool_change_collision:
+    case sim::Kind::tool_missing:
+    case sim::Kind::not_executed:
+    case sim::Kind::not_checked:
+    case sim::Kind::limit_reached:
+      return "t = " + seconds(f.t_first);
+  }
+  return {};
+}
+
+std::vector<Diagnostic> messages(const RunReport& report, bool one_per_episode) {
+  std::vector<Diagnostic> out = report.diagnostics;
+  std::set<int> told;
+  for (const sim::Finding& f : report.findings)
+    if (!one_per_episode || told.insert(f.episode).second) out.push_back(to_diagnostic(f, report));
+  return out;
+}
+
+const char* verdict_paint(sim::Verdict verdict) {
+  switch (verdict) {
+    case sim::Verdict::pass:
+      return "\x1b[1;32m";
+    case sim::Verdict::fail:
+      return "\x1b[1;31m";
+    case sim::Verdict::unknown:
+      return "\x1b[1;33m";
+  }
+  return "";
+}
+
+std::string summary_text(const RunReport& report, const HumanOptions& options) {
+  const sim::Summary& s = report.summary;
+  std::size_t errors = 0, warnings = 0;
+  const auto count = [&](Severity severity) {
+    errors += severity == Severity::error ? 1 : 0;
+    warnings += severity == Severity::warning ? 1 : 0;
+  };
+  for (const Diagnostic& d : report.diagnostics) count(d.severity);
+  for (const sim::Finding& f : report.findings) count(f.severity);
+
+  std::string out = "verdict: ";
+  if (options.style.color) out += verdict_paint(s.verdict);
+  out += sim::to_string(s.verdict);
+  if (options.style.color) out += "\x1b[0m";
+  out += " (" + plural(errors, "error") + ", " + plural(warnings, "warning") + ")\n";
+  if (options.quiet) return out;
+
+  for (const Input& input : report.inputs)
+    if (input.role == "program") out += "  program  " + printable(input.path) + ": ";
+  out += plural(s.blocks, "block") + ", " + plural(s.moves, "move");
+  if (report.machine.empty()) return out + "\n";
+  out += ", " + clock(s.cycle_time) + " (feed " + clock(s.feed_time) + ", rapid " +
+         clock(s.rapid_time);
+  if (s.tool_change_time > 0) out += ", tool change " + clock(s.tool_change_time);
+  if (s.dwell_time > 0) out += ", dwell " + clock(s.dwell_time);
+  out += ")\n  machine  " + printable(report.machine);
+  for (const auto& joint : s.joints) {
+    const double scale = joint.rotary ? degrees : 1;
+    out += (&joint == &s.joints.front() ? ": " : ", ") + joint.name + " " +
+           fixed(joint.low * scale, 2) + " … " + fixed(joint.high * scale, 2) +
+           (joint.rotary ? "°" : "");
+  }
+  out += "\n";
+  if (s.collision.pairs > 0)
+    out += "  checked  " + plural(s.collision.pairs, "pair") + " of " +
+           std::to_string(s.collision.bodies) +
+           " bodies over all of the motion: " + percent(s.collision.clear) + " proven clear, " +
+           percent(s.collision.hit) + " in contact, " + percent(s.collision.unresolved) +
+           " unresolved\n";
+  return out;
+}
+
+}  // namespace
+
+Diagnostic to_diagnostic(const sim::Finding& f, const RunReport& report) {
+  Diagnostic d;
+  d.severity = f.severity;
+  d.kind = std::string(sim::to_string(f.kind));
+  d.message = f.message;
+  d.span = f.span;
+  d.remark = underline_remark(f);
+  if (!f.expanded.empty()) d.notes.push_back({"step", f.expanded});
+  if (f.depth && *f.depth > 0)
+    d.notes.push_back({"depth", fixed(*f.depth, 2) + " mm (± " +
+                                    fixed(f.depth_bound.value_or(0), 3) +
+                                    ") deepest at t = " + seconds(f.t_worst)});
+  if (f.depth && *f.depth <= 0)
+    d.notes.push_back(
+        {"distance", fixed(-*f.depth, 3) + " mm (± " + fixed(f.depth_bound.value_or(0), 3) +
+                         "); near misses are told below " + shortest(f.limit.value_or(0)) + " mm"});
+  if (!f.points.empty())
+    d.notes.push_back({"point", "X " + fixed(f.points[0].x(), 2) + "  Y " +
+                                    fixed(f.points[0].y(), 2) + "  Z " + fixed(f.points[0].z(), 2) +
+                                    " (bed axes, mm)"});
+  if (f.joints_worst.size() > 0) d.notes.push_back({"joints", joints_text(f.joints_worst, report)});
+  std::string state = f.work_system;
+  if (f.tool > 0)
+    state += ", T" + std::to_string(f.tool) +
+             (f.tool_name.empty() ? "" : " \"" + f.tool_name + "\"") + " in the spindle";
+  if (f.spindle_rpm != 0) state += ", spindle " + fixed(f.spindle_rpm, 0) + " rev/min";
+  if (!state.empty()) d.notes.push_back({"state", state});
+  if (!f.picture.empty()) d.notes.push_back({"frame", f.picture});
+  if (!f.remedy.empty()) d.notes.push_back({"help", f.remedy});
+  return d;
+}
+
+std::string to_human(const RunReport& report, const HumanOptions& options) {
+  std::string out;
+  if (!options.quiet) {
+    if (!report.summary.unchecked.empty()) {
+      out += "not checked:\n";
+      for (const std::string& what : report.summary.unchecked)
+        out += "  - " + printable(what) + "\n";
+      out += "\n";
+    }
+    const std::vector<Diagnostic> all = messages(report, true);
+    for (std::size_t i = 0; i < std::min(all.size(), options.most); ++i)
+      out += format_human(all[i], options.style) + "\n";
+    if (all.size() > options.most)
+      out += "… and " + plural(all.size() - options.most, "more message") +
+             "; --format json has them all\n\n";
+  }
+  return out + summary_text(report, options);
+}
+
+std::string to_gcc(const RunReport& report) {
+  std::string out;
+  for (const Diagnostic& d : messages(report, false)) out += format_gcc(d) + "\n";
+  return out;
+}
+
+std::string to_github(const RunReport& report) {
+  // Workflow commands: `%`, CR and LF are escaped; in properties also `:` and `,`.
+  const auto escaped = [](std::string_view text, bool property) {
+    std::string out;
+    for (const char c : text) {
+      if (c == '%' || c == '\r' || c == '\n' || (property && (c == ':' || c == ','))) {
+        constexpr const char* digits = "0123456789ABCDEF";
+        const auto byte = static_cast<unsigned char>(c);
+        out += {'%', digits[byte >> 4], digits[byte & 15]};
+      } else {
+        out += c;
+      }
+    }
+    return out;
+  };
+  std::string out;
+  for (const Diagnostic& d : messages(report, false)) {
+    out += d.severity == Severity::error     ? "::error "
+           : d.severity == Severity::warning ? "::warning "
+                                             : "::notice ";
+    if (d.span)
+      out += "file=" + escaped(d.span.text->name(), true) + ",line=" + std::to_string(d.span.line) +
+             ",col=" + std::to_string(d.span.column()) + ",";
+    out += "title=" + escaped(d.kind, true) + "::" + escaped(d.message, false) + "\n";
+  }
+  return out;
+}
+
+}  // namespace aircut::report
