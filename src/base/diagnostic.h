@@ -46,6 +46,13 @@ class Diagnostics {
   std::size_t errors_ = 0;
 };
 
+/// A row of a library's table of kinds: `explain` and the documentation are made from it.
+struct KindText {
+  const char* kind;
+  const char* title;  ///< one line
+  const char* text;   ///< what it means, an example, the remedy
+};
+
 struct TextStyle {
   bool color = false;  ///< ANSI colours
 };

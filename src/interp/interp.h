@@ -46,7 +46,11 @@ struct Options {
   std::vector<std::string> sub_path;                ///< folders in which called subs are looked for
   std::vector<std::pair<std::string, double>> set;  ///< --set: "#100" or "#<name>", value
   std::map<std::string, double> ini;                ///< `section/key` for #<_ini[section]key>
-  double arc_tolerance = 0.0283;                    ///< centre-format radius tolerance, mm
+  double arc_tolerance = 0.0283;                    ///< centre-format radius tolerance, mm (G21)
+  double arc_tolerance_inch = 0.00283;              ///< the same in inches (G20)
+  int spindles = 1;                                 ///< 1-8
+  double g73_clearance = 0;  ///< mm; 0: 0.254 mm (G21) or 0.010 in (G20)
+  double g83_clearance = 0;  ///< mm; 0: the same
   Limits limits;
 };
 
@@ -91,11 +95,7 @@ class Interpreter {
 };
 
 /// Table of all error kinds of this library with their long text, for `explain` and the docs.
-struct KindText {
-  const char* kind;
-  const char* title;  ///< one line
-  const char* text;   ///< what it means, an example, the remedy
-};
+using aircut::KindText;
 const std::vector<KindText>& error_kinds();
 
 }  // namespace aircut::interp

@@ -73,6 +73,9 @@ enum class Kind : unsigned char {
 std::string_view to_string(Kind kind);
 Severity severity_of(Kind kind);
 
+/// All kinds of findings with their long text.
+const std::vector<KindText>& finding_kinds();
+
 /// What the user reads.
 struct Finding {
   int id = 0;

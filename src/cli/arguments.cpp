@@ -1,0 +1,341 @@
+#include "cli/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "cli/exit_code.h"
+
+namespace aircut::cli {
+
+namespace {
+
+const char* const version = AIRCUT_VERSION;
+
+CLI::Option* add_when(CLI::App* app, const std::string& name, When& when, const std::string& text) {
+  const std::map<std::string, When> words = {
+      {"auto", When::automatic}, {"always", When::always}, {"never", When::never}};
+  return app->add_option(name, when, text)
+      ->transform(CLI::CheckedTransformer(words).description(""))
+      ->type_name("auto|always|never");
+}
+
+void add_color(CLI::App* app, When& color) {
+  add_when(app, "--color", color, "colours in messages (NO_COLOR and CLICOLOR_FORCE are honoured)");
+}
+
+void add_program(CLI::App* app, ProgramArguments& a, std::vector<std::string>& set) {
+  app->add_option("-t,--tools", a.tools, "tool table (.tbl) or tools.toml; replaces the machine's")
+      ->type_name("FILE");
+  app->add_option("--var", a.parameters, "parameter file")->type_name("FILE");
+  app->add_option("--set", set, "set a parameter: '#100=5' or '#<name>=2' (repeatable)")
+      ->type_name("ASSIGNMENT");
+  app->add_option("--sub-path", a.sub_path, "folder of called subs (repeatable)")->type_name("DIR");
+  app->add_flag("--block-delete", a.block_delete, "skip blocks that begin with /");
+  app->add_flag("--optional-stop", a.optional_stop, "M1 stops");
+  app->add_option("--max-blocks", a.max_blocks, "blocks executed before the run ends as unknown")
+      ->type_name("N");
+}
+
+void add_output(CLI::App* app, OutputArguments& o, std::string& fail_on) {
+  const std::map<std::string, Format> formats = {{"human", Format::human},
+                                                 {"json", Format::json},
+                                                 {"gcc", Format::gcc},
+                                                 {"github", Format::github}};
+  app->add_option("--format", o.format, "form of the findings on stdout")
+      ->transform(CLI::CheckedTransformer(formats).description(""))
+      ->type_name("human|json|gcc|github");
+  app->add_flag_callback(
+      "--json", [&o] { o.format = Format::json; }, "the same as --format json");
+  app->add_option("--fail-on", fail_on, "from which severity the exit code is 1 (default: error)")
+      ->check(CLI::IsMember({"error", "warning", "info", "never"}).description(""))
+      ->type_name("error|warning|info|never");
+  app->add_option("--max-findings", o.max_findings, "messages printed for people (default 100)")
+      ->type_name("N");
+  app->add_flag("-q,--quiet", o.quiet, "print the verdict only");
+  add_color(app, o.color);
+}
+
+std::optional<Severity> severity_of(const std::string& word) {
+  if (word == "warning") return Severity::warning;
+  if (word == "info") return Severity::info;
+  if (word == "never") return std::nullopt;
+  return Severity::error;
+}
+
+// "#100=5" → {"#100", 5}
+Expected<std::vector<std::pair<std::string, double>>> assignments(
+    const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, double>> out;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    const auto value =
+        equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
+    if (!text.starts_with('#') || !value)
+      return unexpected(make_error(
+          "usage",
+          "--set '" + printable(text) + "': write '#100=5' or '#<name>=2', with a plain number"));
+    out.emplace_back(text.substr(0, equals), *value);
+  }
+  return out;
+}
+
+Expected<std::pair<int, int>> picture_size(const std::string& text) {
+  const std::size_t x = text.find('x');
+  const auto w = parse_number(text.substr(0, x));
+  const auto h = x == std::string::npos ? std::nullopt : parse_number(text.substr(x + 1));
+  const auto good = [](const std::optional<double>& v) {
+    return v && *v >= 16 && *v <= 8192 && *v == static_cast<int>(*v);
+  };
+  if (!good(w) || !good(h))
+    return unexpected(
+        make_error("usage", "--size '" + printable(text) +
+                                "': write WIDTHxHEIGHT in pixels from 16 to 8192, like 1280x800"));
+  return std::pair(static_cast<int>(*w), static_cast<int>(*h));
+}
+
+int usage_error(const Diagnostic& d, const std::string& command) {
+  std::fputs(format_human(d, {}).c_str(), stderr);
+  std::fprintf(stderr, "see aircut %s--help\n", command.empty() ? "" : (command + " ").c_str());
+  return code(ExitCode::unknown);
+}
+
+// All option names of a command, for "did you mean".
+std::vector<std::string> option_names(const CLI::App* app) {
+  std::vector<std::string> out;
+  for (const CLI::Option* option : app->get_options())
+    for (const std::string& name : option->get_lnames()) out.push_back("--" + name);
+  return out;
+}
+
+}  // namespace
+
+std::variant<Arguments, int> parse(int argc, char** argv) {
+  CLI::App app{
+      "aircut runs an NC program on a virtual machine and says whether it is safe to run."};
+  app.name("aircut");
+  app.set_version_flag("--version", std::string("aircut ") + version);
+  app.set_help_all_flag("--help-all", "help of all commands");
+  app.require_subcommand(1);
+  app.fallthrough(false);
+
+  RunArguments run;
+  CheckArguments check;
+  TraceArguments trace;
+  MachineArguments machine;
+  ExplainArguments explain;
+  std::vector<std::string> set;
+  std::string fail_on = "error", size = "1280x800";
+  std::string trace_format = "text";
+
+  CLI::App* c_run = app.add_subcommand(
+      "run",
+      "run a program on a machine: joints, collisions, frames, verdict\n\n"
+      "  aircut run programs/bracket.ngc -m mill3 -o out\n"
+      "  aircut run part.ngc -m machines/ox-glide-crossed --frames count=24 -o out --force");
+  c_run->add_option("PROGRAM", run.program.program, "the program; - reads standard input")
+      ->required();
+  c_run
+      ->add_option("-m,--machine", run.program.machine,
+                   "package folder, machine.toml, or a shipped name")
+      ->required()
+      ->type_name("MACHINE");
+  c_run->add_option("--setup", run.program.setup, "setup.toml: fixtures, work offsets, start")
+      ->type_name("FILE");
+  add_program(c_run, run.program, set);
+  c_run->add_option("-o,--out", run.folder, "output folder; nothing is written without it")
+      ->type_name("DIR");
+  c_run->add_flag("--force", run.force, "write into a folder that exists");
+  c_run
+      ->add_option("--log", run.log,
+                   "joint log file, or null for none (default: joints.csv in the folder)")
+      ->type_name("FILE");
+  c_run->add_option("--period", run.period, "servo and log period, s (default 0.001)")
+      ->check(CLI::Range(1e-5, 1.0).description(""))
+      ->type_name("S");
+  c_run->add_option("--log-every", run.log_every, "log every N-th sample")
+      ->check(CLI::Range(1, 1000000).description(""))
+      ->type_name("N");
+  c_run->add_option("--near", run.near, "tell approaches closer than this, mm (default 2; 0 = off)")
+      ->check(CLI::Range(0.0, 1000.0).description(""))
+      ->type_name("MM");
+  c_run->add_option("--check", run.checks, "what to check (default all)")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"all", "syntax", "limits", "collision"}).description(""))
+      ->type_name("all|syntax|limits|collision");
+  c_run
+      ->add_option("--frames", run.frames,
+                   "every=2s, at=12.5,80, line=128, tool-change, finding, count=24 (repeatable; "
+                   "with -o default count=12 and finding; none for no frames)")
+      ->type_name("SPEC");
+  c_run
+      ->add_option("--camera", run.camera,
+                   "work, iso, front, back, left, right, top or X,Y,Z,tx,ty,tz")
+      ->type_name("NAME");
+  c_run->add_option("--size", size, "picture size (default 1280x800)")->type_name("WxH");
+  c_run
+      ->add_option("--max-sim-time", run.max_time,
+                   "simulated seconds before the run ends as unknown")
+      ->type_name("S");
+  add_when(c_run, "--progress", run.output.progress, "progress line on stderr");
+  add_output(c_run, run.output, fail_on);
+
+  CLI::App* c_check =
+      app.add_subcommand("check",
+                         "fast gate: interpret programs and report errors, no motion\n\n"
+                         "  aircut check programs/*.ngc\n"
+                         "  aircut check part.ngc -m mill3 --format gcc");
+  c_check->add_option("PROGRAM", check.programs, "programs")->required();
+  c_check->add_option("-m,--machine", check.program.machine, "machine whose axes and tools count")
+      ->type_name("MACHINE");
+  add_program(c_check, check.program, set);
+  add_output(c_check, check.output, fail_on);
+
+  CLI::App* c_trace =
+      app.add_subcommand("trace",
+                         "print the canonical commands, nothing moves\n\n"
+                         "  aircut trace part.ngc\n"
+                         "  aircut trace part.ngc --format rs274 -t tool.tbl --var empty.var");
+  c_trace->add_option("PROGRAM", trace.program.program, "the program; - reads standard input")
+      ->required();
+  c_trace->add_option("-m,--machine", trace.program.machine, "machine whose axes and tools count")
+      ->type_name("MACHINE");
+  add_program(c_trace, trace.program, set);
+  c_trace->add_option("--format", trace_format, "text, jsonl or rs274")
+      ->check(CLI::IsMember({"text", "jsonl", "rs274"}).description(""))
+      ->type_name("text|jsonl|rs274");
+  add_color(c_trace, trace.color);
+
+  CLI::App* c_machine =
+      app.add_subcommand("machine",
+                         "look at a machine package\n\n"
+                         "  aircut machine info -m mill3\n"
+                         "  aircut machine render -m machines/ox-glide-crossed -o machine.png");
+  c_machine->require_subcommand(1);
+  const auto add_machine = [&](const char* name, const char* text,
+                               MachineArguments::Action action) {
+    CLI::App* c = c_machine->add_subcommand(name, text);
+    c->add_option("-m,--machine,MACHINE", machine.machine,
+                  "package folder, machine.toml, or a shipped name")
+        ->required()
+        ->type_name("MACHINE");
+    c->add_option("--setup", machine.setup, "setup.toml")->type_name("FILE");
+    c->add_option("-t,--tools", machine.tools, "tool table or tools.toml")->type_name("FILE");
+    add_color(c, machine.color);
+    c->callback([&machine, action] { machine.action = action; });
+    return c;
+  };
+  add_machine("check", "read the package and say what is wrong with it",
+              MachineArguments::Action::check);
+  add_machine("info", "axes, limits, bodies, pairs", MachineArguments::Action::info);
+  CLI::App* c_render =
+      add_machine("render", "a picture of the machine at home", MachineArguments::Action::render);
+  c_render->add_option("-o,--out", machine.output, "PNG file (default machine.png)")
+      ->type_name("FILE");
+  c_render
+      ->add_option("--camera", machine.camera,
+                   "iso, front, back, left, right, top or X,Y,Z,tx,ty,tz")
+      ->type_name("NAME");
+  c_render->add_option("--size", size, "picture size (default 1280x800)")->type_name("WxH");
+  c_render->add_option("--tool", machine.tool, "tool in the spindle")->type_name("T");
+  c_render->add_flag("--force", machine.force, "replace a file that exists");
+
+  CLI::App* c_explain = app.add_subcommand("explain",
+                                           "what a kind of message means\n\n"
+                                           "  aircut explain arc_error\n"
+                                           "  aircut explain --list");
+  c_explain->add_option("KIND", explain.kind, "the word in brackets of a message");
+  c_explain->add_flag("--list", explain.list, "all kinds");
+  CLI::App* c_doctor =
+      app.add_subcommand("doctor", "version, build and what this program can do here");
+  CLI::App* c_help = app.add_subcommand("help", "help of a command");
+  std::string topic;
+  c_help->add_option("COMMAND", topic, "the command");
+
+  const auto active = [&]() -> CLI::App* {
+    CLI::App* at = &app;
+    while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
+    return at;
+  };
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ExtrasError& e) {
+    std::string word = e.what();
+    if (const std::size_t colon = word.rfind(": "); colon != std::string::npos)
+      word = word.substr(colon + 2);
+    std::string message = "'" + printable(word) + "' is not understood here.";
+    if (word.starts_with("-")) {
+      message = "there is no option '" + printable(word) + "'." +
+                did_you_mean(word.substr(0, word.find('=')), option_names(active()));
+    } else if (active() == &app || active() == c_machine) {
+      std::vector<std::string> names;
+      for (const CLI::App* sub : active()->get_subcommands({})) names.push_back(sub->get_name());
+      message = "there is no command '" + printable(word) + "'." + did_you_mean(word, names);
+    }
+    return usage_error(make_error("usage", message), active() == &app ? "" : active()->get_name());
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(active()->help().c_str(), stdout);
+    return 0;
+  } catch (const CLI::CallForAllHelp&) {
+    std::fputs(app.help("", CLI::AppFormatMode::All).c_str(), stdout);
+    return 0;
+  } catch (const CLI::CallForVersion& e) {
+    std::printf("%s\n", e.what());
+    return 0;
+  } catch (const CLI::ParseError& e) {
+    return usage_error(make_error("usage", e.what()), active() == &app ? "" : active()->get_name());
+  }
+
+  if (c_help->parsed()) {
+    if (topic.empty()) {
+      std::fputs(app.help().c_str(), stdout);
+      return 0;
+    }
+    std::vector<std::string> names;
+    for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
+    for (CLI::App* sub : app.get_subcommands({}))
+      if (sub->get_name() == topic) {
+        std::fputs(sub->help().c_str(), stdout);
+        return 0;
+      }
+    return usage_error(make_error("usage", "there is no command '" + printable(topic) + "'." +
+                                               did_you_mean(topic, names)),
+                       "");
+  }
+  const auto sets = assignments(set);
+  if (!sets) return usage_error(sets.error(), active()->get_name());
+  const auto pixels = picture_size(size);
+  if (!pixels) return usage_error(pixels.error(), active()->get_name());
+
+  if (c_run->parsed()) {
+    run.program.set = *sets;
+    run.output.fail_on = severity_of(fail_on);
+    std::tie(run.width, run.height) = *pixels;
+    return Arguments(run);
+  }
+  if (c_check->parsed()) {
+    check.program.set = *sets;
+    check.output.fail_on = severity_of(fail_on);
+    return Arguments(check);
+  }
+  if (c_trace->parsed()) {
+    trace.program.set = *sets;
+    trace.format = trace_format == "jsonl"   ? TraceFormat::jsonl
+                   : trace_format == "rs274" ? TraceFormat::rs274
+                                             : TraceFormat::text;
+    return Arguments(trace);
+  }
+  if (c_machine->parsed()) {
+    std::tie(machine.width, machine.height) = *pixels;
+    return Arguments(machine);
+  }
+  if (c_explain->parsed()) {
+    if (explain.kind.empty() && !explain.list)
+      return usage_error(make_error("usage", "explain needs a kind, or --list for all of them"),
+                         "explain");
+    return Arguments(explain);
+  }
+  (void)c_doctor;
+  return Arguments(DoctorArguments{});
+}
+
+}  // namespace aircut::cli

@@ -1,0 +1,90 @@
+// The command line as plain values. CLI11 stays in arguments.cpp.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/base.h"
+
+namespace aircut::cli {
+
+enum class Format { human, json, gcc, github };
+enum class When { automatic, always, never };
+
+/// What every command that reads a program takes.
+struct ProgramArguments {
+  std::string program;
+  std::string machine;  ///< folder, machine.toml or name
+  std::string tools, setup, parameters;
+  std::vector<std::pair<std::string, double>> set;
+  std::vector<std::string> sub_path;
+  bool block_delete = false, optional_stop = false;
+  std::optional<unsigned long long> max_blocks;
+};
+
+struct OutputArguments {
+  Format format = Format::human;
+  bool quiet = false;
+  When color = When::automatic;
+  When progress = When::automatic;
+  std::optional<Severity> fail_on = Severity::error;
+  std::size_t max_findings = 100;
+};
+
+struct RunArguments {
+  ProgramArguments program;
+  OutputArguments output;
+  std::string folder;  ///< -o
+  bool force = false;
+  std::string log;  ///< --log FILE or `null`; empty: joints.csv in the folder
+  double period = 0.001;
+  int log_every = 1;
+  double near = 2;
+  std::vector<std::string> checks;  ///< empty: all
+  std::vector<std::string> frames;
+  std::string camera = "work";
+  int width = 1280, height = 800;
+  std::optional<double> max_time;
+};
+
+struct CheckArguments {
+  ProgramArguments program;  ///< `program` unused
+  std::vector<std::string> programs;
+  OutputArguments output;
+};
+
+enum class TraceFormat { text, jsonl, rs274 };
+struct TraceArguments {
+  ProgramArguments program;
+  TraceFormat format = TraceFormat::text;
+  When color = When::automatic;
+};
+
+struct MachineArguments {
+  enum class Action { check, info, render } action = Action::info;
+  std::string machine, setup, tools;
+  int tool = 0;
+  std::string output = "machine.png";
+  std::string camera = "iso";
+  int width = 1280, height = 800;
+  bool force = false;
+  When color = When::automatic;
+};
+
+struct ExplainArguments {
+  std::string kind;
+  bool list = false;
+};
+
+struct DoctorArguments {};
+
+using Arguments = std::variant<RunArguments, CheckArguments, TraceArguments, MachineArguments,
+                               ExplainArguments, DoctorArguments>;
+
+/// Either what to do, or the exit code when the command line was answered (help, version, usage).
+std::variant<Arguments, int> parse(int argc, char** argv);
+
+}  // namespace aircut::cli

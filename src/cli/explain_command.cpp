@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <cstdio>
+#include <thread>
+
+#include "cli/exit_code.h"
+#include "cli/job.h"
+
+namespace aircut::cli {
+
+namespace {
+
+// Kinds that belong to no stage of the program's way.
+const std::vector<KindText>& general_kinds() {
+  static const std::vector<KindText> kinds = {
+      {"usage", "the command line is not understood",
+       "An option is unknown, lacks its value or does not fit the others. Exit code 2."},
+      {"input", "an input can't be read",
+       "The file is missing, is a folder, or can't be opened; the message has the system's reason. "
+       "Exit\n"
+       "code 2: the job could not be verified."},
+      {"output_failed", "an output could not be written",
+       "The folder exists already (use --force), can't be written, or the disk is full. Files are "
+       "written\n"
+       "under a temporary name and renamed, so none is left half-written."},
+      {"machine_invalid", "machine.toml is wrong",
+       "A key is unknown, a value has the wrong type or range, or the chain of joints does not fit "
+       "the\n"
+       "kinematics. The message has line and column; docs/machine-package.md lists all keys."},
+      {"mesh_invalid", "a mesh can't be used",
+       "The file is missing, broken, empty or too large, or lies outside the package."},
+      {"setup_invalid", "setup.toml is wrong",
+       "A key is unknown or a value does not fit; line and column say where."},
+      {"tools_invalid", "the tool table is wrong",
+       "A line of the .tbl or a key of tools.toml does not fit; docs/tools.md lists all keys."},
+  };
+  return kinds;
+}
+
+std::vector<KindText> all_kinds() {
+  std::vector<KindText> out = general_kinds();
+  const auto add = [&](const std::vector<KindText>& kinds) {
+    out.insert(out.end(), kinds.begin(), kinds.end());
+  };
+  add(interp::error_kinds());
+  add(sim::finding_kinds());
+  std::stable_sort(out.begin(), out.end(), [](const KindText& a, const KindText& b) {
+    return std::string_view(a.kind) < std::string_view(b.kind);
+  });
+  return out;
+}
+
+}  // namespace
+
+int explain_command(const ExplainArguments& a) {
+  const std::vector<KindText> kinds = all_kinds();
+  if (a.list) {
+    for (const KindText& row : kinds) std::printf("%-26s %s\n", row.kind, row.title);
+    return code(ExitCode::pass);
+  }
+  std::vector<std::string> names;
+  for (const KindText& row : kinds) {
+    names.push_back(row.kind);
+    if (a.kind != row.kind) continue;
+    std::printf("%s: %s\n\n%s\n", row.kind, row.title, row.text);
+    return code(ExitCode::pass);
+  }
+  print_error(make_error("usage", "there is no kind '" + printable(a.kind) + "'." +
+                                      did_you_mean(a.kind, names)),
+              When::automatic);
+  return code(ExitCode::unknown);
+}
+
+int doctor_command() {
+  std::printf("aircut %s\n", AIRCUT_VERSION);
+  std::printf("threads    %u\n", std::thread::hardware_concurrency());
+  auto renderer = render::Renderer::create({64, 64});
+  std::printf("pictures   %s\n",
+              renderer ? "OSMesa works" : printable(renderer.error().message).c_str());
+  std::printf("machines  ");
+  for (const std::string& folder : package_folders()) std::printf(" %s", printable(folder).c_str());
+  std::printf("\n");
+  return code(renderer ? ExitCode::pass : ExitCode::unknown);
+}
+
+}  // namespace aircut::cli

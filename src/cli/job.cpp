@@ -1,0 +1,171 @@
+#include "cli/job.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+
+namespace aircut::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.find_last_of('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash);
+}
+
+// Every file of a package that can change a result, in a fixed order.
+std::string hash_of_package(const std::string& folder) {
+  static const std::vector<std::string> kinds = {".toml", ".stl", ".obj", ".ply", ".dae", ".glb",
+                                                 ".gltf", ".3mf", ".tbl", ".var", ".ngc"};
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::recursive_directory_iterator it(folder, error), end; !error && it != end;
+       it.increment(error))
+    if (it->is_regular_file(error) &&
+        std::find(kinds.begin(), kinds.end(), it->path().extension().string()) != kinds.end())
+      files.push_back(fs::relative(it->path(), folder, error).generic_string());
+  std::sort(files.begin(), files.end());
+  std::string all;
+  SourceMap sources;
+  for (const std::string& file : files) {
+    const auto text = sources.open(folder + "/" + file);
+    all += file + " " + (text ? sha256((*text)->content()) : "unreadable") + "\n";
+  }
+  return sha256(all);
+}
+
+Expected<const SourceText*> read_standard_input(SourceMap& sources) {
+  std::string text;
+  char buffer[65536];
+  std::size_t n = 0;
+  while ((n = std::fread(buffer, 1, sizeof buffer, stdin)) > 0) text.append(buffer, n);
+  if (std::ferror(stdin)) return unexpected(make_error("input", "can't read standard input"));
+  return &sources.add("-", std::move(text));
+}
+
+// Sets the work offsets of a setup as the parameters that a control keeps them in.
+void apply_offsets(const machine::Setup& setup, interp::ParameterFile& parameters) {
+  for (const auto& [system, offset] : setup.offsets) {
+    const int first = 5221 + 20 * (system - 1);
+    for (const Axis axis : all_axes)
+      parameters.values[first + static_cast<int>(index(axis))] =
+          is_rotary(axis) ? offset[axis] * 180 / M_PI : offset[axis];
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> package_folders() {
+  std::vector<std::string> out = {"machines"};
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    // BUILD/bin/aircut of a build inside the checkout, or an installed PREFIX/bin/aircut.
+    for (fs::path up = program.parent_path(); up.has_relative_path(); up = up.parent_path())
+      if (fs::is_directory(up / "machines", error)) {
+        out.push_back((up / "machines").string());
+        break;
+      }
+    out.push_back((program.parent_path().parent_path() / "share/aircut/machines").string());
+  }
+  return out;
+}
+
+Expected<const SourceText*> open_program(SourceMap& sources, const std::string& path) {
+  return path == "-" ? read_standard_input(sources) : sources.open(path);
+}
+
+bool open_inputs(Job& job, const ProgramArguments& arguments) {
+  Diagnostics& out = job.diagnostics;
+  const auto fail = [&](const Diagnostic& d) {
+    // A reader that returns an error may have listed it among the others already.
+    if (out.errors() == 0) out.add(d);
+    return false;
+  };
+  if (!arguments.machine.empty()) {
+    const auto path = machine::find_package(arguments.machine, package_folders());
+    if (!path) return fail(path.error());
+    auto machine = machine::read_machine(*path, job.sources, out);
+    if (!machine) return fail(machine.error());
+    job.machine = *machine;
+    job.inputs.push_back({"machine", arguments.machine, hash_of_package(job.machine->folder())});
+    job.start = job.machine->home();
+  }
+  std::string parameters = arguments.parameters;
+  if (parameters.empty() && job.machine) parameters = job.machine->default_parameters_;
+  if (!parameters.empty()) {
+    const auto text = job.sources.open(parameters);
+    if (!text) return fail(text.error());
+    job.parameters = interp::read_var(**text, out);
+    job.inputs.push_back({"parameters", parameters, sha256((*text)->content())});
+  }
+  if (!arguments.setup.empty() && job.machine) {
+    const auto setup = machine::read_setup(arguments.setup, *job.machine, job.sources, out);
+    if (!setup) return fail(setup.error());
+    const auto placed = machine::apply_setup(*job.machine, *setup, job.sources, out);
+    if (!placed) return fail(placed.error());
+    job.machine = *placed;
+    if (setup->start) job.start = *setup->start;
+    apply_offsets(*setup, job.parameters);
+    if (const auto text = job.sources.open(arguments.setup))
+      job.inputs.push_back({"setup", arguments.setup, sha256((*text)->content())});
+  }
+  std::string tools = arguments.tools;
+  if (tools.empty() && job.machine) tools = job.machine->default_tools_;
+  if (!tools.empty()) {
+    const auto table = tool::read_tools(tools, 1.0, job.sources, out);
+    if (!table) return fail(table.error());
+    job.tools = *table;
+    if (!arguments.tools.empty())
+      if (const auto text = job.sources.open(tools))
+        job.inputs.push_back({"tools", tools, sha256((*text)->content())});
+  }
+  return out.errors() == 0;
+}
+
+interp::Options interpreter_options(const Job& job, const ProgramArguments& arguments,
+                                    const SourceText& program) {
+  interp::Options options;
+  for (const Axis axis : all_axes) options.axes.add(axis);
+  if (job.machine) {
+    options.axes = job.machine->kinematics().axes();
+    if (const auto tip = job.machine->kinematics().forward(job.start, {})) options.start = *tip;
+  }
+  options.block_delete = arguments.block_delete;
+  options.optional_stop = arguments.optional_stop;
+  options.set = arguments.set;
+  options.sub_path.push_back(folder_of(program.name()));
+  if (job.machine) options.sub_path.push_back(job.machine->folder() + "/subs");
+  for (const std::string& folder : arguments.sub_path) options.sub_path.push_back(folder);
+  if (arguments.max_blocks) options.limits.max_blocks = *arguments.max_blocks;
+  return options;
+}
+
+SourceReader sub_reader(SourceMap& sources) {
+  return [&sources](const std::string& path) { return sources.open(path); };
+}
+
+bool use_color(When when, int descriptor) {
+  if (when != When::automatic) return when == When::always;
+  if (const char* off = std::getenv("NO_COLOR"); off && *off) return false;
+  if (const char* on = std::getenv("CLICOLOR_FORCE"); on && *on && std::string(on) != "0")
+    return true;
+  if (const char* term = std::getenv("TERM"); !term || std::string(term) == "dumb") return false;
+  return ::isatty(descriptor) == 1;
+}
+
+void print_error(const Diagnostic& diagnostic, When color) {
+  std::fputs(format_human(diagnostic, {use_color(color, STDERR_FILENO)}).c_str(), stderr);
+}
+
+void print_errors(const Diagnostics& diagnostics, When color) {
+  for (const Diagnostic& d : diagnostics.list()) print_error(d, color);
+}
+
+}  // namespace aircut::cli

@@ -1,0 +1,55 @@
+// What several commands need: opening the program and the machine, and saying what went wrong.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/arguments.h"
+#include "report/report.h"
+#include "sim/sim.h"
+
+namespace aircut::cli {
+
+/// Inputs of a run, opened and read.
+struct Job {
+  SourceMap sources;
+  std::vector<report::Input> inputs;
+  Diagnostics diagnostics;                          ///< of inputs other than the program
+  std::shared_ptr<const machine::Machine> machine;  ///< null when none was named
+  machine::JointVector start;
+  tool::ToolTable tools;
+  interp::ParameterFile parameters;
+};
+
+/// Opens machine, setup, tools and parameter file. Returns false when something can't be read or is
+/// invalid; the reasons are in job.diagnostics.
+bool open_inputs(Job& job, const ProgramArguments& arguments);
+
+/// Opens a program; `-` is standard input. Refuses what is not text (kinds `input`, `encoding`).
+Expected<const SourceText*> open_program(SourceMap& sources, const std::string& path);
+
+/// Folders in which packages are looked for by name.
+std::vector<std::string> package_folders();
+
+/// Interpreter options for a job; `rs274` takes the reference's units.
+interp::Options interpreter_options(const Job& job, const ProgramArguments& arguments,
+                                    const SourceText& program);
+
+/// Opens called sub files.
+SourceReader sub_reader(SourceMap& sources);
+
+bool use_color(When when, int descriptor);
+/// Prints diagnostics on stderr.
+void print_errors(const Diagnostics& diagnostics, When color);
+void print_error(const Diagnostic& diagnostic, When color);
+
+int run_command(const RunArguments& arguments);
+int check_command(const CheckArguments& arguments);
+int trace_command(const TraceArguments& arguments);
+int machine_command(const MachineArguments& arguments);
+int explain_command(const ExplainArguments& arguments);
+int doctor_command();
+
+}  // namespace aircut::cli

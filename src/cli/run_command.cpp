@@ -1,0 +1,307 @@
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "cli/exit_code.h"
+#include "cli/job.h"
+#include "log/log.h"
+
+namespace aircut::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Signal that asked the run to stop; a second one ends the process at once.
+volatile std::sig_atomic_t stop_signal = 0;
+
+extern "C" void on_signal(int number) {
+  if (stop_signal != 0) _exit(128 + number);
+  stop_signal = number;
+}
+
+// One line on stderr, only for work over a second and only on a terminal.
+class Progress {
+ public:
+  explicit Progress(When when)
+      : shown_(when == When::always || (when == When::automatic && ::isatty(STDERR_FILENO) == 1)) {}
+  ~Progress() { clear(); }
+
+  void tell(double t, const SourceSpan& at) {
+    if (!shown_ || ++calls_ % 256 != 0) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now - start_ < std::chrono::seconds(1) || now - last_ < std::chrono::milliseconds(200))
+      return;
+    last_ = now;
+    written_ = true;
+    std::fprintf(stderr, "\r\x1b[Kline %u   %.1f s simulated   %.1f s worked", at.line, t,
+                 std::chrono::duration<double>(now - start_).count());
+    std::fflush(stderr);
+  }
+  void clear() {
+    if (written_) std::fputs("\r\x1b[K", stderr);
+    written_ = false;
+  }
+
+ private:
+  bool shown_, written_ = false;
+  unsigned calls_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
+};
+
+// The output folder: made, or emptied of what an earlier run listed in its result.json.
+Expected<void> prepare_folder(const std::string& folder, bool force) {
+  const auto fail = [&](const std::string& why) {
+    return unexpected(
+        make_error("output_failed", "can't write into '" + printable(folder) + "': " + why));
+  };
+  std::error_code error;
+  if (fs::exists(folder, error)) {
+    if (!fs::is_directory(folder, error)) return fail("it is a file, not a folder");
+    if (!force && !fs::is_empty(folder, error))
+      return fail(
+          "the folder exists and is not empty; name another one, or use --force to replace an "
+          "earlier run's files");
+    if (::access(folder.c_str(), W_OK) != 0) return fail(std::strerror(errno));
+    // Without result.json the folder is known to be incomplete.
+    fs::remove(folder + "/result.json", error);
+    fs::remove(folder + "/joints.csv", error);
+    fs::remove(folder + "/sheet.png", error);
+    if (fs::is_directory(folder + "/frames", error))
+      for (const auto& entry : fs::directory_iterator(folder + "/frames", error))
+        if (entry.path().extension() == ".png") fs::remove(entry.path(), error);
+    return {};
+  }
+  fs::create_directories(folder, error);
+  if (error) return fail(error.message());
+  return {};
+}
+
+struct Checks {
+  bool limits = true, collision = true;
+};
+
+Checks asked_for(const std::vector<std::string>& words) {
+  const auto has = [&](const char* word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  if (words.empty() || has("all")) return {};
+  return {has("limits"), has("collision")};
+}
+
+bool wants_frames(const RunArguments& a) {
+  return !(a.frames.size() == 1 && a.frames[0] == "none");
+}
+
+Expected<report::FrameOptions> frame_options(const RunArguments& a) {
+  report::FrameOptions options;
+  options.camera = a.camera;
+  options.size = {a.width, a.height};
+  options.program = a.program.program;
+  for (const std::string& text : a.frames)
+    if (text != "none")
+      if (auto added = report::add_frames(options.spec, text); !added)
+        return unexpected(added.error());
+  if (a.frames.empty()) {
+    options.spec.count = 12;
+    options.spec.findings = true;
+  }
+  if (a.camera != "work")
+    if (const auto camera = render::camera_by_name(a.camera, Box3(Vec3(0, 0, 0), Vec3(1, 1, 1)), 1);
+        !camera)
+      return unexpected(camera.error());
+  return options;
+}
+
+void print_report(const report::RunReport& report, const OutputArguments& output) {
+  std::string text;
+  switch (output.format) {
+    case Format::human:
+      text = report::to_human(report, {.style = {use_color(output.color, STDOUT_FILENO)},
+                                       .most = output.max_findings,
+                                       .quiet = output.quiet});
+      break;
+    case Format::json:
+      text = report::to_json(report);
+      break;
+    case Format::gcc:
+      text = report::to_gcc(report);
+      break;
+    case Format::github:
+      text = report::to_github(report);
+      break;
+  }
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+}  // namespace
+
+int run_command(const RunArguments& a) {
+  const auto fail = [&](const Diagnostic& d) {
+    print_error(d, a.output.color);
+    return code(ExitCode::unknown);
+  };
+  // Everything that can be wrong is looked at before anything is written.
+  const auto frames = frame_options(a);
+  if (!frames) return fail(frames.error());
+  if (a.folder.empty() && !a.frames.empty() && wants_frames(a))
+    return fail(make_error("usage", "--frames needs -o DIR to write into"));
+  Job job;
+  const auto program = open_program(job.sources, a.program.program);
+  if (!program) return fail(program.error());
+  job.inputs.push_back({"program", a.program.program, sha256((*program)->content())});
+  if (!open_inputs(job, a.program)) {
+    print_errors(job.diagnostics, a.output.color);
+    return code(ExitCode::unknown);
+  }
+  if (!a.folder.empty())
+    if (auto ready = prepare_folder(a.folder, a.force); !ready) return fail(ready.error());
+
+  const machine::Machine& machine = *job.machine;
+  Diagnostics diagnostics;
+  interp::Interpreter interpreter(**program, job.tools, job.parameters,
+                                  interpreter_options(job, a.program, **program),
+                                  sub_reader(job.sources), diagnostics);
+  plan::Planner planner(machine, job.start, {.period = a.period});
+  const Checks checks = asked_for(a.checks);
+  sim::Simulator simulator(
+      job.machine, job.tools, job.start,
+      {.limits = checks.limits, .collision = checks.collision, .near = a.near});
+
+  std::unique_ptr<log::CsvJointLog> log;
+  std::string log_path = a.log;
+  if (log_path.empty() && !a.folder.empty()) log_path = a.folder + "/joints.csv";
+  if (!log_path.empty() && log_path != "null") {
+    std::string machine_hash;
+    for (const report::Input& input : job.inputs)
+      if (input.role == "machine") machine_hash = input.sha256;
+    auto made = log::CsvJointLog::create(log_path, machine,
+                                         {.period = a.period,
+                                          .every = a.log_every,
+                                          .program = a.program.program,
+                                          .program_sha256 = job.inputs.front().sha256,
+                                          .machine_sha256 = machine_hash});
+    if (!made) return fail(made.error());
+    log = std::move(*made);
+    simulator.add_observer(*log);
+  }
+  std::unique_ptr<report::FrameMaker> pictures;
+  if (!a.folder.empty() && frames->spec.any()) {
+    pictures = std::make_unique<report::FrameMaker>(job.machine, job.tools, *frames);
+    simulator.add_observer(*pictures);
+  }
+
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  Progress progress(a.output.quiet ? When::never : a.output.progress);
+  sim::RunOptions options;
+  options.stop_requested = [] { return stop_signal != 0; };
+  options.progress = [&](double t, const SourceSpan& span) { progress.tell(t, span); };
+  if (a.max_time) options.max_time = *a.max_time;
+  sim::Simulator::Result result = sim::run(interpreter, diagnostics, planner, simulator, options);
+  progress.clear();
+
+  report::RunReport report;
+  report.version = AIRCUT_VERSION;
+  report.machine = machine.name();
+  report.inputs = job.inputs;
+  report.checks = {"syntax"};
+  if (checks.limits) report.checks.push_back("limits");
+  if (checks.collision) report.checks.push_back("collision");
+  report.settings = {{"near_mm", a.near},
+                     {"period_s", a.period},
+                     {"resolution_mm", machine.collision_tolerance()}};
+  report.diagnostics = job.diagnostics.list();
+  for (const Diagnostic& d : diagnostics.list()) report.diagnostics.push_back(d);
+  report.findings = std::move(result.findings);
+  report.summary = result.summary;
+  for (int j = 0; j < machine.joint_count(); ++j) {
+    const machine::Joint& joint = machine.joint(machine::JointId{j});
+    report.joint_names.push_back(joint.name);
+    report.joint_rotary.push_back(joint.kind == machine::JointKind::rotary);
+  }
+  report.summary.verdict =
+      sim::judge(report.findings, report.summary, diagnostics, a.output.fail_on);
+
+  if (log) {
+    if (auto written = log->result(); !written) return fail(written.error());
+    if (a.log.empty()) report.outputs.push_back("joints.csv");
+  }
+  if (pictures && stop_signal == 0) {
+    const auto written = pictures->write(a.folder, report.findings);
+    if (!written) return fail(written.error());
+    report.outputs.insert(report.outputs.end(), written->begin(), written->end());
+  }
+  if (!a.folder.empty())
+    if (auto written = write_file(a.folder + "/result.json", report::to_json(report)); !written)
+      return fail(written.error());
+
+  print_report(report, a.output);
+  if (!a.folder.empty() && !a.output.quiet && a.output.format == Format::human)
+    std::printf("  written  %s/: result.json%s\n", printable(a.folder).c_str(),
+                [&] {
+                  std::string list;
+                  std::size_t images = 0;
+                  for (const std::string& path : report.outputs)
+                    if (path.starts_with("frames/"))
+                      ++images;
+                    else
+                      list += ", " + path;
+                  if (images > 0) list += ", frames/ (" + std::to_string(images) + ")";
+                  return list;
+                }()
+                    .c_str());
+  if (stop_signal != 0) return 128 + stop_signal;
+  return code(exit_code_of(report.summary.verdict));
+}
+
+int check_command(const CheckArguments& a) {
+  ProgramArguments inputs = a.program;
+  Job job;
+  if (!open_inputs(job, inputs)) {
+    print_errors(job.diagnostics, a.output.color);
+    return code(ExitCode::unknown);
+  }
+  report::RunReport report;
+  report.version = AIRCUT_VERSION;
+  report.inputs = job.inputs;
+  report.checks = {"syntax"};
+  report.diagnostics = job.diagnostics.list();
+  for (const std::string& path : a.programs) {
+    const auto program = open_program(job.sources, path);
+    if (!program) {
+      print_error(program.error(), a.output.color);
+      report.summary.unchecked.push_back(path + ": it can't be read");
+      continue;
+    }
+    report.inputs.push_back({"program", path, sha256((*program)->content())});
+    Diagnostics diagnostics;
+    interp::Interpreter interpreter(**program, job.tools, job.parameters,
+                                    interpreter_options(job, inputs, **program),
+                                    sub_reader(job.sources), diagnostics);
+    while (const auto command = interpreter.next()) {
+      if (canon::is_motion(command->action)) ++report.summary.moves;
+      if (const auto* probe = std::get_if<canon::Probe>(&command->action))
+        interpreter.resume({.tip = probe->end, .tripped = false});
+    }
+    report.summary.blocks += interpreter.statistics().blocks;
+    if (interpreter.statistics().limit_reached)
+      report.summary.unchecked.push_back(path + ": a limit on its length was reached");
+    if (diagnostics.errors() > 0) report.summary.program_refused = true;
+    for (const Diagnostic& d : diagnostics.list()) report.diagnostics.push_back(d);
+  }
+  Diagnostics all;
+  for (const Diagnostic& d : report.diagnostics) all.add(d);
+  report.summary.verdict = sim::judge({}, report.summary, all, a.output.fail_on);
+  print_report(report, a.output);
+  return code(exit_code_of(report.summary.verdict));
+}
+
+}  // namespace aircut::cli
