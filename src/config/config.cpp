@@ -391,8 +391,13 @@ Diagnostics Reader::finish() {
   };
   std::stable_sort(document_->found.begin(), document_->found.end(),
                    [&](const Diagnostic& a, const Diagnostic& b) { return rank(a) < rank(b); });
+  // A getter that is asked twice complains twice.
+  const auto same = [](const Diagnostic& a, const Diagnostic& b) {
+    return a.span.text == b.span.text && a.span.begin == b.span.begin && a.message == b.message;
+  };
+  const auto end = std::unique(document_->found.begin(), document_->found.end(), same);
   Diagnostics out;
-  for (Diagnostic& diagnostic : document_->found) out.add(std::move(diagnostic));
+  for (auto it = document_->found.begin(); it != end; ++it) out.add(std::move(*it));
   document_->found.clear();
   return out;
 }

@@ -1,0 +1,310 @@
+// machine.toml as a whole. Every part records its own problems; the machine is handed out only when
+// there is none.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "machine/kinematics/kinematics_table.h"
+#include "machine/reading.h"
+
+namespace aircut::machine {
+
+namespace {
+
+constexpr long our_schema = 1;
+
+void read_kinematics(config::Table& top, ReadState& state) {
+  auto table = top.table("kinematics");
+  if (!table) {
+    if (!top.has("kinematics"))
+      top.error("kinematics", "[kinematics] is missing: it says how joints move the tool");
+    return;
+  }
+  const std::string rapid =
+      table->choice("rapid", {"coordinated", "joint", "dogleg"}, "coordinated");
+  state.machine.rapid_ = rapid == "joint"    ? RapidMode::joint
+                         : rapid == "dogleg" ? RapidMode::dogleg
+                                             : RapidMode::coordinated;
+  if (table->has("tcp")) {
+    table->know("tcp");
+    table->error("tcp", "'tcp' is not supported by this version");
+  }
+  std::vector<std::string> types;
+  for (const KinematicsRow& row : kinematics_table()) types.emplace_back(row.type);
+  const std::string type = table->required_text("type");
+  std::vector<Joint> driven;
+  for (const int at : state.machine.driven_) {
+    if (static_cast<std::size_t>(at) >= state.machine.tree_.size()) return;
+    driven.push_back(state.machine.tree_[static_cast<std::size_t>(at)]);
+  }
+  for (const KinematicsRow& row : kinematics_table()) {
+    if (row.type != type) continue;
+    KinematicsInput input{*table, state.unit_mm, driven};
+    state.machine.kinematics_ = row.make(input);
+    return;
+  }
+  if (type.empty()) return;  // said already
+  std::string known;
+  for (const std::string& word : types) known += (known.empty() ? "" : ", ") + word;
+  table->error("type", "unknown kinematics '" + type + "'; this version knows " + known + "." +
+                           did_you_mean(type, types));
+  for (const std::string& key : table->keys()) table->know(key);  // whose keys they are is open
+}
+
+// Every passive couple has a value, and every value moves a couple.
+void match_passive(config::Table& top, Machine& machine) {
+  if (!machine.kinematics_) return;
+  const std::vector<std::string> names = machine.kinematics().passive_names();
+  const std::vector<config::Table> tables = top.tables("axis");
+  const auto table_of = [&](const Joint& joint) {
+    return *std::find_if(tables.begin(), tables.end(),
+                         [&](config::Table table) { return table.text("name", "") == joint.name; });
+  };
+  std::set<std::string> used;
+  for (Joint& joint : machine.tree_) {
+    if (joint.driven >= 0) continue;
+    const auto found = std::find(names.begin(), names.end(), joint.passive);
+    if (found == names.end()) {
+      table_of(joint).error("passive", "the kinematics '" +
+                                           std::string(machine.kinematics().type()) +
+                                           "' has no passive value '" + joint.passive + "'." +
+                                           did_you_mean(joint.passive, names));
+      continue;
+    }
+    joint.passive_index = static_cast<int>(found - names.begin());
+    used.insert(joint.passive);
+    const bool angle = joint.passive.ends_with("_angle");
+    if (angle != (joint.kind == JointKind::rotary))
+      table_of(joint).error("kind", "'" + joint.passive + "' is " +
+                                        (angle ? "an angle, so its axis must be rotary"
+                                               : "a length, so its axis must be linear"));
+  }
+  for (const std::string& name : names)
+    if (!used.contains(name))
+      top.error("kinematics", "no [[axis]] has passive = \"" + name +
+                                  "\": a part that the kinematics moves is not in the tree");
+}
+
+void read_spindle(config::Table& top, ReadState& state) {
+  auto table = top.table("spindle");
+  if (!table) {
+    if (!top.has("spindle"))
+      top.error("spindle",
+                "[spindle] is missing: the link that carries the tool and its gauge point");
+    return;
+  }
+  Spindle& spindle = state.machine.spindle_;
+  if (!table->has("link"))
+    table->error("link", "'link' is missing: the link that carries the tool");
+  spindle.link = read_link(*table, "link", "bed", state.machine);
+  if (!table->has("gauge"))
+    table->error("gauge", "'gauge' is missing: the point where the tool length is 0, in bed axes");
+  spindle.gauge = point(*table, "gauge", Vec3::Zero(), state.unit_mm);
+  if (const auto rpm = table->numbers("rpm", 2)) {
+    spindle.min_rpm = (*rpm)[0];
+    spindle.max_rpm = (*rpm)[1];
+    if (!(0 <= spindle.min_rpm && spindle.min_rpm <= spindle.max_rpm && spindle.max_rpm > 0))
+      table->error("rpm", "'rpm' needs [lowest, highest], 0 or more each");
+  }
+}
+
+double seconds(config::Table& table, const std::string& key) {
+  const double value = table.number(key, 0);
+  constexpr double longest = 3.6e5;  // 100 h, the limit of simulated time
+  if (value >= 0 && value <= longest) return value;
+  table.error(key, "'" + key + "' needs seconds from 0 to 360000");
+  return 0;
+}
+
+void read_tool_change(config::Table& top, Machine& machine) {
+  auto table = top.table("toolchange");
+  if (!table) return;
+  machine.tool_change_.seconds = seconds(*table, "time");
+  for (const char* key : {"program", "position"}) {
+    table->know(key);
+    if (table->has(key))
+      table->error(key, "'" + std::string(key) +
+                            "' of a tool change is not supported by this version; only 'time' is");
+  }
+}
+
+// M-codes of the machine builder: [mcodes] M110 = { kind = "ignore" }.
+void read_user_codes(config::Table& top, Machine& machine) {
+  auto table = top.table("mcodes");
+  if (!table) return;
+  for (const std::string& key : table->keys()) {
+    const auto code = key.starts_with("M") ? parse_number(key.substr(1)) : std::nullopt;
+    if (!code || *code != std::floor(*code) || *code < 0 || *code > 99999) {
+      table->error(key, "'" + printable(key) + "' is no M-code; write it like M110");
+      continue;
+    }
+    auto rule = table->table(key);
+    if (!rule) continue;
+    UserCodeRule out;
+    const std::string kind =
+        rule->choice("kind", {"ignore", "time", "program", "unknown"}, "unknown");
+    if (kind == "ignore") out.kind = UserCodeKind::ignore;
+    if (kind == "time") {
+      out.kind = UserCodeKind::time;
+      if (!rule->has("time")) rule->error("time", "'time' is missing: the seconds that it takes");
+      out.seconds = seconds(*rule, "time");
+    }
+    if (kind == "program")
+      rule->error("kind", "an M-code that runs a program is not supported by this version");
+    if (!machine.user_codes_.emplace(static_cast<int>(*code), out).second)
+      table->error(key, "M" + shortest(*code) + " is there twice");
+  }
+}
+
+void read_files(config::Table& top, ReadState& state) {
+  const auto path_of = [&](const std::string& key) -> std::string {
+    const auto path = top.text(key);
+    if (!path) return {};
+    auto full = state.files.full_path(*path);
+    if (full) return *full;
+    top.error(key, full.error().message);
+    return {};
+  };
+  state.machine.default_tools_ = path_of("tools");
+  state.machine.default_parameters_ = path_of("parameters");
+}
+
+std::vector<Diagnostic> read_default_fixtures(config::Table& top, ReadState& state) {
+  Diagnostics found;
+  const auto names = top.texts("fixtures");
+  for (std::size_t i = 0; names && i < names->size(); ++i) {
+    const SourceSpan span = top.item_span("fixtures", i);
+    const std::string& name = (*names)[i];
+    if (std::find(names->begin(), names->begin() + static_cast<long>(i), name) !=
+        names->begin() + static_cast<long>(i)) {
+      found.error("machine_invalid", span, "fixture '" + name + "' is there twice");
+      continue;
+    }
+    if (auto fixture = read_fixture(name, span, state, found))
+      state.machine.fixtures_.push_back(std::move(*fixture));
+  }
+  place_fixtures(state.machine);
+  return found.list();
+}
+
+void read_collision(config::Table& top, Machine& machine, double unit_mm) {
+  auto table = top.table("collision");
+  if (!table) return;
+  machine.collision_tolerance_ = length(*table, "tolerance", machine.collision_tolerance_, unit_mm);
+  if (!(machine.collision_tolerance_ > 0))
+    table->error("tolerance", "'tolerance' must be more than 0 mm");
+  table->choice("watch", {"all"}, "all");
+
+  std::vector<std::string> known;
+  for (const Body& body : machine.bodies()) known.push_back(body.name);
+  for (const Link& link : machine.links()) known.push_back(link.name);
+  const auto add = [&](const std::vector<std::string>& pair, const SourceSpan& span,
+                       std::string reason) {
+    const auto fail = [&](std::string message) {
+      table->report(make_error("machine_invalid", span, std::move(message)));
+    };
+    if (pair.size() != 2) return fail("a pair that is ignored has two names");
+    for (const std::string& name : pair)
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        return fail("there is no body and no link '" + name + "'." + did_you_mean(name, known));
+    machine.exclusions_.push_back({pair[0], pair[1], std::move(reason)});
+  };
+  if (table->holds_tables("ignore")) {
+    std::vector<config::Table> pairs = table->tables("ignore");
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const std::string reason = pairs[i].required_text("reason");
+      if (!pairs[i].has("bodies"))
+        pairs[i].error("bodies", "'bodies' is missing: the two names of the pair");
+      if (const auto names = pairs[i].texts("bodies"))
+        add(*names, table->item_span("ignore", i), reason);
+    }
+  } else {
+    const auto pairs = table->text_lists("ignore");
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      add(pairs[i], table->item_span("ignore", i), "declared by the machine's file");
+  }
+}
+
+void check_body_names(config::Table& top, const Machine& machine) {
+  // A body and a link may share a name only if the body is on that link: an exclusion names either.
+  const std::vector<config::Table> tables = top.tables("body");
+  for (std::size_t i = 0; i < tables.size() && i < machine.bodies().size(); ++i) {
+    const Body& body = machine.bodies()[i];
+    const auto link = machine.find_link(body.name);
+    config::Table table = tables[i];
+    if (link && *link != body.link)
+      table.error("name", "body '" + body.name + "' has the name of a link that it is not on");
+  }
+}
+
+}  // namespace
+
+double read_units(config::Table& top, double fallback) {
+  const std::string units = top.choice("units", {"mm", "inch"}, "");
+  return units == "inch" ? 25.4 : units == "mm" ? 1.0 : fallback;
+}
+
+void check_schema(config::Table& top) {
+  const auto schema = top.integer("schema");
+  if (!schema) return;
+  if (*schema > our_schema)
+    top.error("schema", "schema " + std::to_string(*schema) + " is newer than this version of " +
+                            "aircut, which knows schema " + std::to_string(our_schema));
+  else if (*schema < 1)
+    top.error("schema", "'schema' starts at 1");
+}
+
+Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& text,
+                                                           const std::string& folder,
+                                                           const PackageFiles& files,
+                                                           Diagnostics& out) {
+  config::Reader reader(text, "machine_invalid");
+  config::Table top = reader.top();
+  if (!top.has("schema")) top.error("schema", "'schema' is missing: write schema = 1");
+  check_schema(top);
+  auto machine = std::make_shared<Machine>();
+  machine->folder_ = folder;
+  machine->name_ = top.required_text("name");
+  machine->dialect_ =
+      top.choice("dialect", {"linuxcnc", "fanuc", "haas", "sinumerik", "grbl"}, "linuxcnc");
+  ReadState state{*machine, read_units(top, 1.0), files};
+
+  read_tree(top, state);
+  read_kinematics(top, state);
+  match_passive(top, *machine);
+  read_spindle(top, state);
+  machine->bodies_ = read_bodies(top, "", bed_link, state);
+  check_body_names(top, *machine);
+  for (Diagnostic& problem : read_default_fixtures(top, state)) top.report(std::move(problem));
+  read_collision(top, *machine, state.unit_mm);
+  read_tool_change(top, *machine);
+  read_user_codes(top, *machine);
+  read_files(top, state);
+
+  Diagnostics problems = reader.finish();
+  if (problems.errors() == 0)
+    if (const auto reason = tree_disagrees(*machine))
+      problems.error("machine_invalid", top.span("kinematics"), *reason);
+  for (const Diagnostic& problem : problems.list()) out.add(problem);
+  if (problems.errors() == 0) return std::shared_ptr<const Machine>(machine);
+  return unexpected(make_error("machine_invalid", problems.list().front().span,
+                               "the machine's file has " + std::to_string(problems.errors()) +
+                                   (problems.errors() == 1 ? " error" : " errors")));
+}
+
+Expected<std::shared_ptr<const Machine>> read_machine(const std::string& path, SourceMap& sources,
+                                                      Diagnostics& out) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::path file =
+      fs::is_directory(path, error) ? fs::path(path) / "machine.toml" : fs::path(path);
+  const auto text = sources.open(file.string());
+  if (!text) {
+    out.add(text.error());
+    return unexpected(text.error());
+  }
+  const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
+  return read_machine_text(**text, folder, disk_files(folder, sources), out);
+}
+
+}  // namespace aircut::machine

@@ -1,0 +1,57 @@
+// The parts that the reader of a package is made of. All of them record what is wrong in the table
+// that they read from and go on with a harmless value, so that one run names all problems.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "machine/machine.h"
+#include "machine/package_files.h"
+
+namespace aircut::machine {
+
+struct ReadState {
+  Machine& machine;
+  double unit_mm;
+  const PackageFiles& files;
+  std::size_t triangles = 0;  ///< of all different meshes so far
+  std::set<const TriangleMesh*> counted = {};
+};
+
+/// A machine.toml from its text; the files it names come through `files`.
+Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& text,
+                                                           const std::string& folder,
+                                                           const PackageFiles& files,
+                                                           Diagnostics& out);
+/// Likewise a setup.toml.
+Expected<Setup> read_setup_text(const SourceText& text, const Machine& machine, Diagnostics& out);
+
+/// mm per length unit of the file: key `units`.
+double read_units(config::Table& top, double fallback);
+/// Key `schema`, which must not be newer than ours.
+void check_schema(config::Table& top);
+
+/// Links and couples from `[[axis]]`, and the work link from `[work]`.
+void read_tree(config::Table& top, ReadState& state);
+
+/// `[[body]]` tables of a machine.toml or, with a prefix, of a fixture file.
+std::vector<Body> read_bodies(config::Table& top, const std::string& prefix, LinkId link,
+                              ReadState& state);
+/// fixtures/NAME.toml. Its problems go to `out`; the machine that names it has the place `span`.
+std::optional<Fixture> read_fixture(const std::string& name, const SourceSpan& span,
+                                    ReadState& state, Diagnostics& out);
+/// Takes the bodies of all fixtures off the machine, and puts them where `fixtures_` says.
+void remove_fixture_bodies(Machine& machine);
+void place_fixtures(Machine& machine);
+
+/// A link by name; an unknown one is an error at the key.
+LinkId read_link(config::Table& table, const std::string& key, const std::string& fallback,
+                 const Machine& machine);
+
+/// Compares the kinematics with the link tree at home and at random joints: a model that draws one
+/// machine and drives another is refused. Nothing when they agree, else the reason.
+std::optional<std::string> tree_disagrees(const Machine& machine);
+
+}  // namespace aircut::machine
