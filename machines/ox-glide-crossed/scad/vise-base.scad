@@ -1,0 +1,3 @@
+include <vise-params.scad>
+
+vise_base();
