@@ -24,10 +24,9 @@ class CsvJointLog final : public sim::Observer {
                                                        const machine::Machine& machine,
                                                        JointLogOptions options);
   ~CsvJointLog() override;
-  void on_start(const sim::Scene& scene) override;
+  void on_start(const sim::Scene& scene, const sim::JointVector& joints) override;
   void on_step(const sim::Step& step) override;
-  void on_finish(const sim::Scene& scene, const std::vector<sim::Finding>& findings,
-                 const sim::Summary& summary) override;
+  void on_finish(const sim::Summary& summary) override;
   /// Result of the commit, after on_finish.
   Expected<void> result() const;
 

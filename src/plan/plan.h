@@ -58,6 +58,22 @@ PathPoint evaluate(const Path& path, double s);
 /// Box of the positions for s in [s0, s1] and the way of each axis; exact or larger.
 machine::TipInterval bounds(const Path& path, double s0, double s1);
 
+/// Speed of the tip along the feed metric (XYZ, else UVW, else ABC) per path speed; 1 but for
+/// blends and spirals.
+double metric_speed(const Path& path, const PathPoint& point);
+
+/// Joints and their derivatives by s at one place of a path.
+struct JointPoint {
+  machine::JointVector q, dq, ddq;
+};
+/// Derivatives of the joints from those of the tip: analytic where the kinematics offers it, else
+/// by differences of the inverse. The error also says when they are not finite (a singular pose).
+tl::expected<JointPoint, machine::ReachError> joint_point(const machine::Kinematics& kinematics,
+                                                          const machine::Target& target,
+                                                          const AxisValues& d_tip,
+                                                          const AxisValues& dd_tip,
+                                                          const machine::JointVector& near);
+
 /// From `t` on (s since the segment's start): s(τ) = s + vτ + aτ²/2 + jτ³/6 with τ = time − t.
 struct ProfileKnot {
   double t = 0, s = 0, v = 0, a = 0, j = 0;
@@ -109,6 +125,7 @@ struct Segment {
   SpeedProfile profile;
   double t_start = 0;      ///< program time, s
   AxisValues tool_offset;  ///< length offset in force
+  bool merged = false;     ///< part of a chord that replaces several lines (G64 Q)
   double feed = 0;         ///< commanded speed along the feed metric, mm/s (rad/s); 0 = rapid
   int tool = 0;            ///< in the spindle during the segment
   double spindle_rpm = 0;  ///< signed, clockwise positive

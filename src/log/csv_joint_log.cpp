@@ -1,0 +1,300 @@
+// The joint log as CSV (docs/joint-log.md).
+//
+// Sample k is at t = k T, computed from the whole number k, so that no error adds up. A segment
+// gives the samples of [t_start, t_end); the last sample, at rest, is the first at or after the end
+// of the program. The header tells the number of samples and the end time, which are known only
+// then: rows go to an unlinked file in the same folder and are copied behind the header at the end.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "log/log.h"
+
+namespace aircut::log {
+namespace {
+
+constexpr double degrees = 180 / std::numbers::pi;
+constexpr std::size_t flush_size = std::size_t{1} << 20;
+
+// Bits of the column `flags`.
+enum Flag : unsigned {
+  in_blend = 1,
+  merged_line = 2,
+  feed_limited = 4,
+  velocity_limited = 8,
+  acceleration_limited = 16,
+  jerk_limited = 32,
+  warning = 128,
+};
+
+unsigned flags_of(const plan::Segment& segment) {
+  unsigned flags = 0;
+  if (segment.kind == plan::MotionKind::blend) flags |= in_blend;
+  if (segment.merged) flags |= merged_line;
+  if (segment.failure) flags |= warning;
+  switch (segment.limited_by) {
+    case plan::LimitedBy::none:
+      return flags;
+    case plan::LimitedBy::feed:
+      return flags | feed_limited;
+    case plan::LimitedBy::velocity:
+      return flags | velocity_limited;
+    case plan::LimitedBy::acceleration:
+      return flags | acceleration_limited;
+    case plan::LimitedBy::jerk:
+      return flags | jerk_limited;
+  }
+  return flags;
+}
+
+// True when F counts degrees: the block moves rotary axes alone.
+bool counts_degrees(const plan::Segment& segment) {
+  const auto* line = std::get_if<plan::Line>(&segment.path);
+  if (!line) return false;
+  const AxisValues way = line->end - line->start;
+  for (const Axis axis : all_axes)
+    if (!is_rotary(axis) && std::abs(way[axis]) > 1e-7) return false;
+  return true;
+}
+
+// Rows until they are copied behind the header. The file has no name, so a crash leaves nothing.
+class Spool {
+ public:
+  Spool() = default;
+  Spool(const Spool&) = delete;
+  Spool& operator=(const Spool&) = delete;
+  ~Spool() {
+    if (file_) std::fclose(file_);
+  }
+  bool open(const std::string& beside) {
+    const std::string name = beside + ".rows." + std::to_string(::getpid());
+    const int fd = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (fd < 0) return false;
+    ::unlink(name.c_str());
+    file_ = ::fdopen(fd, "w+b");
+    return file_ != nullptr;
+  }
+  bool write(const std::string& bytes) {
+    return std::fwrite(bytes.data(), 1, bytes.size(), file_) == bytes.size();
+  }
+  bool copy_to(OutputFile& out) {
+    if (std::fflush(file_) != 0) return false;
+    std::rewind(file_);
+    std::string buffer(flush_size, '\0');
+    while (const std::size_t n = std::fread(buffer.data(), 1, buffer.size(), file_))
+      out.write(std::string_view(buffer.data(), n));
+    return std::ferror(file_) == 0;
+  }
+
+ private:
+  std::FILE* file_ = nullptr;
+};
+
+}  // namespace
+
+struct CsvJointLog::Impl {
+  Impl(OutputFile output, const machine::Machine& m, JointLogOptions o)
+      : file(std::move(output)), machine(m), options(std::move(o)) {
+    for (int j = 0; j < machine.joint_count(); ++j)
+      scale.push_back(
+          machine.joint(machine::JointId{j}).kind == machine::JointKind::rotary ? degrees : 1);
+  }
+
+  void step(const sim::Step& step);
+  void sample(const sim::Step& step, double t);
+  void row(const plan::Segment& segment, const motion::JointState& state, double t);
+  void finish();
+  std::string header() const;
+  void flush();
+  void fail(std::string message) {
+    if (result) result = unexpected(make_error("output_failed", std::move(message)));
+  }
+  void number(double value) {
+    rows.push_back(',');
+    append_shortest(rows, value);
+  }
+  void joints(const machine::JointVector& values) {
+    for (Eigen::Index j = 0; j < values.size(); ++j)
+      number(values[j] * scale[static_cast<std::size_t>(j)]);
+  }
+
+  OutputFile file;
+  const machine::Machine& machine;
+  JointLogOptions options;
+  std::vector<double> scale;  ///< file unit per internal unit, by joint
+  Spool spool;
+  std::string rows;
+  std::uint64_t next = 0;     ///< number of the next sample
+  std::uint64_t written = 0;  ///< rows
+  double revolutions = 0;     ///< of the spindle at the end of the steps so far
+  double end_time = 0;
+  std::optional<AxisValues> start_pose;
+  bool stepped = false;
+  plan::Segment rest;  ///< of the last step, without its path and time law
+  motion::JointState rest_state;
+  Expected<void> result = {};
+};
+
+void CsvJointLog::Impl::step(const sim::Step& step) {
+  const plan::Segment& segment = step.segment;
+  const double t0 = segment.t_start, t1 = segment.t_end();
+  stepped = true;
+  for (; static_cast<double>(next) * options.period < t1; ++next)
+    if (next % static_cast<std::uint64_t>(options.every) == 0)
+      sample(step, std::max(static_cast<double>(next) * options.period, t0));
+  end_time = t1;
+  revolutions += segment.spindle_rpm / 60 * (t1 - t0);
+  rest = plan::Segment{};
+  rest.command.span = segment.command.span;
+  rest.command.block = segment.command.block;
+  rest.tool = segment.tool;
+  rest.tool_offset = segment.tool_offset;
+  rest.spindle_rpm = segment.spindle_rpm;
+  rest.failure = segment.failure;
+  rest.t_start = t1;
+  if (const auto q = step.motion.at(t1)) {
+    rest_state = {};
+    rest_state.q = *q;
+    rest_state.v = rest_state.a = machine::JointVector::Zero(q->size());
+    rest_state.tip = step.motion.tip_at(t1);
+  } else {
+    fail("the joints at t = " + shortest(t1) + " s can't be computed: " + q.error().reason);
+  }
+}
+
+void CsvJointLog::Impl::sample(const sim::Step& step, double t) {
+  const auto state = step.motion.state_at(t);
+  if (!state)
+    return fail("the joints at t = " + shortest(t) +
+                " s can't be computed: " + state.error().reason);
+  row(step.segment, *state, static_cast<double>(next) * options.period);
+}
+
+void CsvJointLog::Impl::row(const plan::Segment& segment, const motion::JointState& state,
+                            double t) {
+  const double feed_scale = counts_degrees(segment) ? degrees : 1;
+  unsigned flags = flags_of(segment);
+  append_shortest(rows, t);
+  rows += ',';
+  rows += std::to_string(segment.command.span.line);
+  rows += ',';
+  rows += std::to_string(segment.command.block);
+  rows += ',';
+  rows += std::to_string(static_cast<int>(segment.kind));
+  number(segment.feed * feed_scale);
+  number(state.path_speed * feed_scale);
+  number(state.s * feed_scale);
+  joints(state.q);
+  joints(state.v);
+  joints(state.a);
+  // What the joints really reach, not what was asked for.
+  auto pose = machine.kinematics().forward(state.q, segment.tool_offset);
+  if (!pose) flags |= warning;
+  const AxisValues& tip = pose ? *pose : state.tip;
+  for (const Axis axis : all_axes) number(tip[axis] * (is_rotary(axis) ? degrees : 1));
+  rows += ',';
+  rows += std::to_string(segment.tool);
+  number(segment.spindle_rpm);
+  number(revolutions + segment.spindle_rpm / 60 * (t - segment.t_start));
+  number(0);  // sync_error: nothing is synchronised to the spindle
+  rows += ',';
+  rows += std::to_string(flags);
+  rows += '\n';
+  ++written;
+  if (rows.size() > flush_size) flush();
+}
+
+void CsvJointLog::Impl::flush() {
+  if (!spool.write(rows)) fail("the joint log's rows could not be written; is the disk full?");
+  rows.clear();
+}
+
+std::string CsvJointLog::Impl::header() const {
+  std::string out;
+  const auto key = [&out](const char* name, const std::string& value) {
+    out += std::string("# ") + name + "=" + printable(value) + "\n";
+  };
+  std::string names, v, a, j, row = "t,line,block,motion,feed_cmd,feed_act,s";
+  for (int i = 0; i < machine.joint_count(); ++i) {
+    const machine::Joint& joint = machine.joint(machine::JointId{i});
+    const double unit = scale[static_cast<std::size_t>(i)];
+    const char* comma = i > 0 ? "," : "";
+    names += comma + joint.name + (joint.kind == machine::JointKind::rotary ? ":deg" : ":mm");
+    v += comma + shortest(joint.vmax * unit);
+    a += comma + shortest(joint.amax * unit);
+    j += comma + (std::isinf(joint.jmax) ? "inf" : shortest(joint.jmax * unit));
+  }
+  for (const char* letter : {"q", "v", "a"})
+    for (int i = 0; i < machine.joint_count(); ++i)
+      row += std::string(",") + letter + std::to_string(i);
+  row += ",x,y,z,a,b,c,u,v,w,tool,spindle_rpm,spindle_rev,sync_error,flags\n";
+  std::string pose;
+  const AxisValues start = start_pose.value_or(AxisValues{});
+  for (const Axis axis : all_axes)
+    pose += (axis == Axis::x ? "" : ",") + shortest(start[axis] * (is_rotary(axis) ? degrees : 1));
+  key("format", "aircut-joints-1");
+  key("program", options.program);
+  key("program_sha256", options.program_sha256);
+  key("machine", machine.name());
+  key("machine_sha256", options.machine_sha256);
+  key("kinematics", std::string(machine.kinematics().type()));
+  key("servo_period_s", shortest(options.period));
+  key("every", std::to_string(options.every));
+  key("joints", names);
+  key("linear_unit", "mm");
+  key("angular_unit", "deg");
+  key("limits_v", v);
+  key("limits_a", a);
+  key("limits_j", j);
+  key("planner", "second");
+  key("default_p_mm", "0");
+  key("default_q_mm", "0");
+  key("start_pose", pose);
+  key("end_time_s", shortest(end_time));
+  key("samples", std::to_string(written));
+  return out + row;
+}
+
+void CsvJointLog::Impl::finish() {
+  // The last sample is at rest. A multiple of the period that misses the end by rounding only
+  // counts as the end.
+  while (static_cast<double>(next) * options.period < end_time - 1e-9 * options.period) ++next;
+  if (stepped && result) row(rest, rest_state, static_cast<double>(next) * options.period);
+  flush();
+  if (!result) return;
+  file.write(header());
+  if (!spool.copy_to(file)) return fail("the joint log's rows could not be read back");
+  result = file.commit();
+}
+
+CsvJointLog::CsvJointLog() = default;
+CsvJointLog::~CsvJointLog() = default;
+
+Expected<std::unique_ptr<CsvJointLog>> CsvJointLog::create(const std::string& path,
+                                                           const machine::Machine& machine,
+                                                           JointLogOptions options) {
+  if (!(options.period > 0) || options.every < 1)
+    return unexpected(make_error("usage", "the log period must be above 0 and every at least 1"));
+  auto file = OutputFile::create(path);
+  if (!file) return unexpected(file.error());
+  std::unique_ptr<CsvJointLog> out(new CsvJointLog);
+  out->impl_ = std::make_unique<Impl>(std::move(*file), machine, std::move(options));
+  if (!out->impl_->spool.open(path))
+    return unexpected(make_error(
+        "output_failed", "can't write beside '" + printable(path) + "': " + std::strerror(errno)));
+  return out;
+}
+
+void CsvJointLog::on_start(const sim::Scene&, const sim::JointVector& joints) {
+  if (const auto tip = impl_->machine.kinematics().forward(joints, AxisValues{}))
+    impl_->start_pose = *tip;
+}
+void CsvJointLog::on_step(const sim::Step& step) { impl_->step(step); }
+void CsvJointLog::on_finish(const sim::Summary&) { impl_->finish(); }
+Expected<void> CsvJointLog::result() const { return impl_->result; }
+
+}  // namespace aircut::log

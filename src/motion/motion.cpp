@@ -1,0 +1,67 @@
+// The joints of a segment over time: s(t) by the profile, the tip by the path, the joints by the
+// machine's inverse kinematics, each time anew: nothing is interpolated.
+//
+//   q̇ = q' ṡ        q̈ = q' s̈ + q'' ṡ²        (' = d/ds)
+//
+// Travel: s only grows, so in [ta, tb] the tip stays on the path between s(ta) and s(tb); the
+// path's box and way there go to the kinematics, which bounds every joint over them.
+#include "motion/motion.h"
+
+#include <algorithm>
+
+namespace aircut::motion {
+
+using machine::ReachError;
+using machine::Target;
+
+JointMotion::JointMotion(const machine::Machine& machine, const plan::Segment& segment,
+                         JointVector near)
+    : machine_(&machine), segment_(&segment), near_(std::move(near)) {}
+
+double JointMotion::t0() const { return segment_->t_start; }
+double JointMotion::t1() const { return segment_->t_end(); }
+
+tl::expected<JointVector, ReachError> JointMotion::at(double t) const {
+  return machine_->kinematics().inverse(Target{tip_at(t), segment_->tool_offset}, near_);
+}
+
+AxisValues JointMotion::tip_at(double t) const {
+  const double s = segment_->profile.at(t - segment_->t_start).s;
+  return plan::evaluate(segment_->path, s).p;
+}
+
+tl::expected<JointState, ReachError> JointMotion::state_at(double t) const {
+  const auto [s, v, a] = segment_->profile.at(t - segment_->t_start);
+  const plan::PathPoint p = plan::evaluate(segment_->path, s);
+  const Target target{p.p, segment_->tool_offset};
+  JointState out;
+  out.tip = p.p;
+  out.s = s;
+  if (v == 0 && a == 0) {
+    auto q = machine_->kinematics().inverse(target, near_);
+    if (!q) return unexpected(q.error());
+    out.q = std::move(*q);
+    out.v = out.a = JointVector::Zero(out.q.size());
+    return out;
+  }
+  auto joint = plan::joint_point(machine_->kinematics(), target, p.d, p.dd, near_);
+  if (!joint) return unexpected(joint.error());
+  out.q = std::move(joint->q);
+  out.v = v * joint->dq;
+  out.a = a * joint->dq + v * v * joint->ddq;
+  out.path_speed = v * plan::metric_speed(segment_->path, p);
+  return out;
+}
+
+bool JointMotion::travel_bound(double ta, double tb, std::span<double> travel) const {
+  const auto [s0, s1] = segment_->profile.range(ta - segment_->t_start, tb - segment_->t_start);
+  if (!(s1 > s0)) {
+    std::fill(travel.begin(), travel.end(), 0.0);
+    return true;
+  }
+  machine::TipInterval tip = plan::bounds(segment_->path, s0, s1);
+  tip.tool_offset = segment_->tool_offset;
+  return machine_->kinematics().travel_bound(tip, travel);
+}
+
+}  // namespace aircut::motion

@@ -1,0 +1,110 @@
+// Streaming look-ahead. What comes later can only matter through the speed that must still be
+// braked. So the backward pass is run twice over the window: once as if the window ended at rest,
+// once as if its end could be passed at the best speed there. Both meet where some cap, not the
+// end, decides; from there to the left they are the same numbers bit by bit, whatever follows. All
+// pieces before the last meeting are final. The result is therefore the same for every size of the
+// window that covers the way of braking.
+//
+// Trying costs a pass over the window; after a try the next comes when the window has doubled, so
+// the total is linear in the number of nodes. If the two never meet and the window is full, the
+// first half is emitted as the stop-safe pass has it: slower than the optimum, but legal.
+#include "plan/chain.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace aircut::plan {
+namespace {
+
+LimitedBy longest(const std::array<double, 5>& time) {
+  const auto worst = std::max_element(time.begin(), time.end());
+  return *worst > 0 ? static_cast<LimitedBy>(worst - time.begin()) : LimitedBy::none;
+}
+
+}  // namespace
+
+void Chain::push(Piece piece) {
+  if (piece.entry <= 0) stop();
+  nodes_ += piece.grid.nodes();
+  window_.push_back({std::move(piece), {}, {}, {}});
+  if (nodes_ >= next_try_) emit_final();
+}
+
+void Chain::push_still(Segment segment) {
+  if (window_.empty())
+    hand_out(std::move(segment));
+  else
+    window_.back().after.push_back(std::move(segment));
+}
+
+void Chain::stop() {
+  if (window_.empty()) return;
+  brake_all();
+  emit(window_.size());
+  b_ = 0;
+}
+
+// Backward pass for a window that ends at rest.
+void Chain::brake_all() {
+  double b_end = 0;
+  for (std::size_t i = window_.size(); i-- > 0;) {
+    const Piece& piece = window_[i].piece;
+    const double b = std::min(piece.entry, brake(piece.grid, b_end, window_[i].stop));
+    b_end = b / piece.per_exit;
+  }
+}
+
+void Chain::emit_final() {
+  brake_all();
+  double b_fast = std::numeric_limits<double>::infinity();
+  std::size_t final_count = 0;
+  for (std::size_t i = window_.size(); i-- > 0;) {
+    Item& item = window_[i];
+    const Piece& piece = item.piece;
+    const double fast = std::min(piece.entry, brake(piece.grid, b_fast, item.fast));
+    const double stop = std::min(piece.entry, item.stop.front());
+    if (fast == stop) {
+      final_count = i;
+      break;
+    }
+    b_fast = fast / piece.per_exit;
+  }
+  if (final_count == 0 && nodes_ > max_nodes_) final_count = window_.size() / 2;
+  emit(final_count);
+  next_try_ = 2 * nodes_ + 64;
+  if (nodes_ < max_nodes_) next_try_ = std::min(next_try_, max_nodes_ + 1);
+}
+
+// Carries out the first `count` pieces by their stop-safe pass.
+void Chain::emit(std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    Item& item = window_.front();
+    Ride ride = accelerate(item.piece.grid, item.stop, b_);
+    Segment& segment = item.piece.segment;
+    segment.profile = std::move(ride.profile);
+    segment.limited_by = longest(ride.time);
+    hand_out(std::move(segment));
+    for (Segment& still : item.after) hand_out(std::move(still));
+    nodes_ -= item.piece.grid.nodes();
+    window_.pop_front();
+    b_ = ride.b_end;
+    if (!window_.empty())
+      b_ = std::min(b_ * window_.front().piece.per_exit,
+                    std::min(window_.front().piece.entry, window_.front().stop.front()));
+  }
+}
+
+void Chain::hand_out(Segment segment) {
+  segment.t_start = clock_;
+  clock_ += segment.duration();
+  ready_.push_back(std::move(segment));
+}
+
+std::optional<Segment> Chain::take() {
+  if (ready_.empty()) return std::nullopt;
+  Segment out = std::move(ready_.front());
+  ready_.pop_front();
+  return out;
+}
+
+}  // namespace aircut::plan

@@ -1,0 +1,54 @@
+// Private: the look-ahead window. Pieces whose geometry is final come in, in order, with the speed
+// allowed at each joint between them; segments whose time law is final go out.
+#pragma once
+
+#include <deque>
+
+#include "plan/speed.h"
+
+namespace aircut::plan {
+
+/// A piece of path between two joints (here: junctions) of the chain.
+struct Piece {
+  Segment segment;  ///< all but profile, t_start and limited_by
+  Grid grid;
+  double entry = 0;     ///< largest squared speed at the start, in this piece's s; 0 = stop
+  double per_exit = 1;  ///< squared speed here per squared speed at the end of the piece before
+};
+
+class Chain {
+ public:
+  /// The window is emitted piecewise when it holds more than this many nodes.
+  explicit Chain(std::size_t max_nodes) : max_nodes_(max_nodes) {}
+
+  void push(Piece piece);
+  /// A segment that takes no way: it comes out after the piece before it. One that takes time needs
+  /// a stop() first.
+  void push_still(Segment segment);
+  /// The last piece ends at rest; all of it is final.
+  void stop();
+
+  std::optional<Segment> take();
+
+ private:
+  struct Item {
+    Piece piece;
+    std::vector<Segment> after;  ///< stand-still segments behind it
+    Controllable stop, fast;     ///< results of the backward passes
+  };
+
+  void emit_final();
+  void brake_all();
+  void emit(std::size_t count);
+  void hand_out(Segment segment);
+
+  std::size_t max_nodes_;
+  std::deque<Item> window_;
+  std::size_t nodes_ = 0;      ///< in the window
+  std::size_t next_try_ = 64;  ///< nodes at which it is worth looking for final pieces
+  double b_ = 0;               ///< squared speed at the start of the window, in its first piece's s
+  double clock_ = 0;           ///< program time, s
+  std::deque<Segment> ready_;
+};
+
+}  // namespace aircut::plan

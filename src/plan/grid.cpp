@@ -1,0 +1,207 @@
+// Nodes along a path piece, dense enough that limits kept at the nodes are kept between them.
+//
+// Start with the whole piece; evaluate the middle; split where, over the interval, the rows of the
+// middle differ from the mean of the ends by more than `row_tolerance` of a limit (at the largest
+// speed and acceleration that can occur there), or where nodes would be too coarse for the time
+// law. The middle node is kept, so the accepted intervals are half as long as the ones that were
+// tested and their error is about a quarter (the rows are smooth).
+//
+//   time law  The profile has one acceleration per interval. Near the ends of a piece it must be
+//             able to ramp: with d = b_cap / (2 u_max), the way of a ramp from rest, intervals are
+//             no longer than max(d / 6, 0.2 × distance to the nearer end) before the last halving.
+//   product   β(s) b(s) is a product of two linear functions: it exceeds its end values by at most
+//             |Δβ| |Δb| / 4. q' sqrt(b): by (Δq'/q')² / 4 of the limit.
+#include "plan/grid.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aircut::plan {
+namespace {
+
+using machine::JointVector;
+using machine::ReachError;
+
+constexpr double row_tolerance = 4e-4;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+struct Node {
+  double s = 0;
+  JointPoint joint;
+  JointVector alpha, beta;
+  double metric_speed = 1;  ///< |p'| along the feed metric
+  double cap = infinity;
+  Cap why = Cap::none;
+};
+
+class GridMaker {
+ public:
+  GridMaker(const JointPath& path, Metric metric, double feed, const JointLimits& limits)
+      : path_(path), metric_(metric), feed_(feed), limits_(limits), length_(length(path.path())) {}
+
+  tl::expected<Grid, GridFailure> make(bool identity, const JointVector& near);
+
+ private:
+  tl::expected<Node, ReachError> node(double s, const JointVector& near) const;
+  bool is_uniform(bool identity, const Node& first, const Node& last) const;
+  bool too_coarse(const Node& a, const Node& m, const Node& b) const;
+  bool split(const Node& a, const Node& b, int depth);
+  void add(const Node& n);
+
+  const JointPath& path_;
+  Metric metric_;
+  double feed_;
+  const JointLimits& limits_;
+  double length_;
+  double ramp_ = 0;  ///< way of a ramp from rest at the ends
+  Grid grid_;
+  std::optional<GridFailure> failure_;
+};
+
+tl::expected<Node, ReachError> GridMaker::node(double s, const JointVector& near) const {
+  const PathPoint p = evaluate(path_.path(), s);
+  auto joint = path_.point(s, near);
+  if (!joint) return unexpected(joint.error());
+  Node out;
+  out.s = s;
+  out.joint = std::move(*joint);
+  out.alpha = out.joint.dq.cwiseQuotient(limits_.a);
+  out.beta = out.joint.ddq.cwiseQuotient(limits_.a);
+  out.metric_speed = metric_length(metric_, p.d);
+  if (feed_ < infinity && out.metric_speed > 0) {
+    out.cap = (feed_ / out.metric_speed) * (feed_ / out.metric_speed);
+    out.why = Cap::feed;
+  }
+  const double fastest = 1 / out.joint.dq.cwiseQuotient(limits_.v).cwiseAbs().maxCoeff();
+  if (fastest * fastest < out.cap) {
+    out.cap = fastest * fastest;
+    out.why = Cap::velocity;
+  }
+  return out;
+}
+
+// Joints linear in s: the same q' everywhere and no q''. Identity kinematics on a line by
+// definition; otherwise looked at in five places, which no smooth mechanism passes by chance.
+bool GridMaker::is_uniform(bool identity, const Node& first, const Node& last) const {
+  if (!std::holds_alternative<Line>(path_.path())) return false;
+  if (identity) return true;
+  const JointVector& dq = first.joint.dq;
+  const double size = dq.norm();
+  const auto same = [&](const Node& n) {
+    return (n.joint.dq - dq).norm() <= 1e-12 * size &&
+           n.joint.ddq.norm() * length_ <= 1e-12 * size &&
+           (n.joint.q - first.joint.q - n.s * dq).norm() <= 1e-9;
+  };
+  if (!same(first) || !same(last)) return false;
+  for (const double f : {0.31, 0.5, 0.77}) {
+    const auto n = node(f * length_, first.joint.q);
+    if (!n || !same(*n)) return false;
+  }
+  return true;
+}
+
+bool GridMaker::too_coarse(const Node& a, const Node& m, const Node& b) const {
+  const double ds = b.s - a.s;
+  const double end_distance = std::min(b.s, length_ - a.s);
+  if (ds > std::max(ramp_ / 6, 0.2 * end_distance)) return true;
+  // The largest speed is the cap; the largest acceleration that of standstill or less than twice
+  // as much where curvature helps.
+  const double alpha = std::max(a.alpha.cwiseAbs().maxCoeff(), b.alpha.cwiseAbs().maxCoeff());
+  const double u = 2 / std::max(alpha, 1e-300);
+  const double bend = std::max({a.beta.cwiseAbs().maxCoeff(), b.beta.cwiseAbs().maxCoeff(),
+                                m.beta.cwiseAbs().maxCoeff(), 1e-300});
+  // Curvature alone holds b near 1 / |β|; twice that where acceleration helps.
+  const double speed2 = std::min(std::max({a.cap, m.cap, b.cap}), 2 / bend);
+  const double speed = std::sqrt(speed2);
+  for (Eigen::Index j = 0; j < a.alpha.size(); ++j) {
+    const double off_alpha = std::abs(m.alpha[j] - (a.alpha[j] + b.alpha[j]) / 2);
+    const double off_beta = std::abs(m.beta[j] - (a.beta[j] + b.beta[j]) / 2);
+    const double product = std::abs(b.beta[j] - a.beta[j]) * std::min(ds * u, speed2) / 8;
+    if (off_alpha * u + off_beta * speed2 + product > row_tolerance) return true;
+    const double to_v = limits_.a[j] / limits_.v[j] * speed;  // α to a share of the joint's speed
+    if (off_alpha * to_v > row_tolerance) return true;
+    const double change = (b.alpha[j] - a.alpha[j]) * to_v;
+    if (change * change > 8 * row_tolerance) return true;
+  }
+  if (feed_ < infinity) {
+    const double off = std::abs(m.metric_speed - (a.metric_speed + b.metric_speed) / 2);
+    const double change = (b.metric_speed - a.metric_speed) / m.metric_speed;
+    if (off > row_tolerance * m.metric_speed || change * change > 8 * row_tolerance) return true;
+  }
+  return false;
+}
+
+void GridMaker::add(const Node& n) {
+  grid_.s.push_back(n.s);
+  grid_.cap.push_back(n.cap);
+  grid_.why.push_back(n.why);
+  if (grid_.uniform) return;
+  grid_.rows.insert(grid_.rows.end(), n.alpha.begin(), n.alpha.end());
+  grid_.rows.insert(grid_.rows.end(), n.beta.begin(), n.beta.end());
+}
+
+// Adds the nodes behind `a` up to and with `b`. False after a failure.
+bool GridMaker::split(const Node& a, const Node& b, int depth) {
+  const auto middle = node((a.s + b.s) / 2, a.joint.q);
+  if (!middle) {
+    failure_ = {a.s, true, middle.error().reason};
+    return false;
+  }
+  // 2^-24 of the piece: nodes this near that still differ mean that the inverse jumps.
+  constexpr int deepest = 24;
+  if (depth < deepest && too_coarse(a, *middle, b))
+    return split(a, *middle, depth + 1) && split(*middle, b, depth + 1);
+  if (depth == deepest) {
+    const JointVector jump = b.joint.q - a.joint.q - (b.s - a.s) * middle->joint.dq;
+    if (jump.cwiseAbs().maxCoeff() > 1e-3) {
+      failure_ = {a.s, true, "the joints would have to jump to another branch there"};
+      return false;
+    }
+  }
+  add(*middle);
+  add(b);
+  return true;
+}
+
+tl::expected<Grid, GridFailure> GridMaker::make(bool identity, const JointVector& near) {
+  const auto first = node(0, near);
+  if (!first) return unexpected(GridFailure{0, true, first.error().reason});
+  // The end is reached over the middle, so that `near` is never a long way off.
+  JointVector guess = first->joint.q;
+  if (!identity) {
+    for (int i = 1; i < 16; ++i) {
+      const auto q = path_.joints(length_ * i / 16, guess);
+      if (!q) return unexpected(GridFailure{length_ * (i - 1) / 16, false, q.error().reason});
+      guess = *q;
+    }
+  }
+  const auto last = node(length_, guess);
+  if (!last) return unexpected(GridFailure{0, true, last.error().reason});
+  if (first->joint.dq.isZero(0) && last->joint.dq.isZero(0) && is_uniform(identity, *first, *last))
+    return unexpected(GridFailure{0, false, "no joint of the machine moves this axis"});
+  grid_.joints = static_cast<int>(first->alpha.size());
+  grid_.uniform = is_uniform(identity, *first, *last);
+  if (grid_.uniform) grid_.uniform_a = 1 / first->alpha.cwiseAbs().maxCoeff();
+  const double alpha = std::max(first->alpha.cwiseAbs().maxCoeff(), 1e-300);
+  ramp_ = std::min(std::max(first->cap, last->cap) * alpha / 2, length_);
+  grid_.dq_start = first->joint.dq;
+  grid_.dq_end = last->joint.dq;
+  grid_.q_end = last->joint.q;
+  add(*first);
+  if (grid_.uniform)
+    add(*last);
+  else if (!split(*first, *last, 0))
+    return unexpected(*failure_);
+  return std::move(grid_);
+}
+
+}  // namespace
+
+tl::expected<Grid, GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
+                                          Metric metric, double feed, const AxisValues& tool_offset,
+                                          const JointLimits& limits, const JointVector& near) {
+  const JointPath joints(kinematics, path, tool_offset);
+  return GridMaker(joints, metric, feed, limits).make(kinematics.type() == "identity", near);
+}
+
+}  // namespace aircut::plan

@@ -1,0 +1,57 @@
+// Private: a path piece as the speed planner sees it: nodes along s with the limits there.
+#pragma once
+
+#include <vector>
+
+#include "plan/geometry.h"
+#include "plan/joint_path.h"
+
+namespace aircut::plan {
+
+/// Limits of the joints, by JointId: mm/s, mm/s² or rad/s, rad/s².
+struct JointLimits {
+  machine::JointVector v, a;
+};
+
+/// What caps the speed at a node.
+enum class Cap : unsigned char { none, feed, velocity };
+
+/// Nodes of one piece. `b` is the squared path speed.
+///
+/// A uniform piece (joints linear in s) needs no inner nodes: its limits are constants and its
+/// profile is a closed form. Otherwise node k has one row per joint: |alpha u + beta b| ≤ 1, with
+/// u the path acceleration, alpha = q' / A, beta = q'' / A.
+struct Grid {
+  bool uniform = false;
+  double uniform_a = 0;  ///< largest |u| of a uniform piece
+  int joints = 0;
+  std::vector<double> s;    ///< of the nodes, ascending, first 0, last the length
+  std::vector<double> cap;  ///< largest b by feed and joint speeds
+  std::vector<Cap> why;
+  std::vector<double> rows;  ///< per node: alpha of every joint, then beta of every joint
+
+  std::size_t nodes() const { return s.size(); }
+  double length() const { return s.back(); }
+  const double* alpha(std::size_t node) const {
+    return rows.data() + node * 2 * static_cast<std::size_t>(joints);
+  }
+  const double* beta(std::size_t node) const { return alpha(node) + joints; }
+
+  machine::JointVector q_end;             ///< joints at the end of the piece
+  machine::JointVector dq_start, dq_end;  ///< q' at the ends
+};
+
+/// The piece can't be carried out beyond `s`.
+struct GridFailure {
+  double s = 0;  ///< last place that is good
+  bool singular = false;
+  std::string reason;
+};
+
+/// `near`: joints at the start. `feed` limits the tip's speed along `metric` (infinity: a rapid).
+tl::expected<Grid, GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
+                                          Metric metric, double feed, const AxisValues& tool_offset,
+                                          const JointLimits& limits,
+                                          const machine::JointVector& near);
+
+}  // namespace aircut::plan

@@ -1,0 +1,29 @@
+// Private: the joints along a path piece, q(s), with q' and q'' by s.
+#pragma once
+
+#include "plan/plan.h"
+
+namespace aircut::plan {
+
+/// q(s) of one piece. Borrows the kinematics for its life.
+class JointPath {
+ public:
+  JointPath(const machine::Kinematics& kinematics, const Path& path, const AxisValues& tool_offset)
+      : kinematics_(&kinematics), path_(&path), tool_offset_(tool_offset) {}
+
+  /// Joints at s; `near` chooses the branch.
+  tl::expected<machine::JointVector, machine::ReachError> joints(
+      double s, const machine::JointVector& near) const;
+  /// Joints with derivatives; the error also says when they are not finite (a singular pose).
+  tl::expected<JointPoint, machine::ReachError> point(double s,
+                                                      const machine::JointVector& near) const;
+  const Path& path() const { return *path_; }
+  const AxisValues& tool_offset() const { return tool_offset_; }
+
+ private:
+  const machine::Kinematics* kinematics_;
+  const Path* path_;
+  AxisValues tool_offset_;
+};
+
+}  // namespace aircut::plan

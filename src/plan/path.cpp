@@ -1,0 +1,248 @@
+// Geometry of the path pieces: position and three derivatives by the piece's own parameter s, and
+// boxes with the way per axis over an interval of s, exact or larger.
+//
+// Line    p = p0 + s d, d = (p1 − p0) / length.
+// Arc     the angle φ runs linearly with s: φ = angle · s / length. With e1 the unit vector from
+//         the axis to the start and e2 = normal × e1:
+//           xyz = centre + ρ(φ) (cos φ e1 + sin φ e2) + rise · s / length · normal
+//         with ρ linear from start_radius to end_radius; the other six axes are linear in s. The
+//         start and end points of the piece are taken as they are programmed: `start` gives the
+//         height along the normal, so centre may be any point of the axis.
+// Blend   quintic Bezier in nine axes with parameter u = s / length; derivatives and sub-ranges by
+//         de Casteljau, boxes from the control points (a Bezier lies in their hull, and its way is
+//         no longer than the control polygon, axis by axis).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "plan/geometry.h"
+
+namespace aircut::plan {
+namespace {
+
+constexpr std::array<Axis, 3> xyz = {Axis::x, Axis::y, Axis::z};
+constexpr double pi = std::numbers::pi;
+
+PathPoint evaluate_line(const Line& line, double s) {
+  PathPoint out;
+  if (line.length <= 0) {
+    out.p = line.start;
+    return out;
+  }
+  out.d = (1 / line.length) * (line.end - line.start);
+  out.p = s >= line.length ? line.end : line.start + s * out.d;
+  return out;
+}
+
+PathPoint evaluate_arc(const Arc& arc, double s) {
+  PathPoint out;
+  const double w = arc.angle / arc.length;  // dφ/ds
+  const double phi = w * s;
+  const double dr = (arc.end_radius - arc.start_radius) / arc.length;
+  const double r = arc.start_radius + dr * s;
+  const Vec3& e1 = arc.radial;
+  const Vec3 e2 = arc.normal.cross(e1);
+  const Vec3 c = std::cos(phi) * e1 + std::sin(phi) * e2;  // radial direction
+  const Vec3 n = std::cos(phi) * e2 - std::sin(phi) * e1;  // its derivative by φ
+  const double climb = arc.rise / arc.length;
+  const Vec3 p = foot_of(arc) + r * c + climb * s * arc.normal;
+  const Vec3 d = dr * c + r * w * n + climb * arc.normal;
+  const Vec3 dd = 2 * dr * w * n - r * w * w * c;
+  const Vec3 ddd = -3 * dr * w * w * c - r * w * w * w * n;
+  const AxisValues slope = (1 / arc.length) * (arc.end - arc.start);
+  out.p = arc.start + s * slope;
+  out.d = slope;
+  for (const Axis axis : xyz) {
+    const auto i = static_cast<Eigen::Index>(index(axis));
+    out.p[axis] = p[i];
+    out.d[axis] = d[i];
+    out.dd[axis] = dd[i];
+    out.ddd[axis] = ddd[i];
+  }
+  return out;
+}
+
+PathPoint evaluate_blend(const Blend& blend, double s) {
+  const double u = std::clamp(s / blend.length, 0.0, 1.0);
+  const double k = 1 / blend.length;
+  PathPoint out;
+  for (const Axis axis : all_axes) {
+    std::array<double, 6> c{};
+    for (std::size_t i = 0; i < 6; ++i) c[i] = blend.control[i][axis];
+    // After `level` rounds the differences of the remaining points give the derivative of order
+    // 5 − level … ; three rounds are kept back.
+    for (std::size_t n = 5; n > 3; --n)
+      for (std::size_t i = 0; i < n; ++i) c[i] += u * (c[i + 1] - c[i]);
+    out.ddd[axis] = 60 * (c[3] - 3 * c[2] + 3 * c[1] - c[0]) * k * k * k;
+    for (std::size_t i = 0; i < 3; ++i) c[i] += u * (c[i + 1] - c[i]);
+    out.dd[axis] = 20 * (c[2] - 2 * c[1] + c[0]) * k * k;
+    for (std::size_t i = 0; i < 2; ++i) c[i] += u * (c[i + 1] - c[i]);
+    out.d[axis] = 5 * (c[1] - c[0]) * k;
+    out.p[axis] = c[0] + u * (c[1] - c[0]);
+  }
+  return out;
+}
+
+machine::TipInterval bounds_line(const Line& line, double s0, double s1) {
+  machine::TipInterval out;
+  const AxisValues a = evaluate_line(line, s0).p, b = evaluate_line(line, s1).p;
+  for (const Axis axis : all_axes) {
+    out.low[axis] = std::min(a[axis], b[axis]);
+    out.high[axis] = std::max(a[axis], b[axis]);
+    out.travel[axis] = std::abs(b[axis] - a[axis]);
+  }
+  return out;
+}
+
+struct Range {
+  double low, high;
+  double travel;
+};
+
+// cos over [a, b], a ≤ b: smallest and largest value and total variation.
+Range cosine_range(double a, double b) {
+  if (b - a >= 2 * pi) {
+    const double turns = std::ceil((b - a) / (2 * pi));
+    return {-1, 1, 4 * turns};
+  }
+  Range out{std::min(std::cos(a), std::cos(b)), std::max(std::cos(a), std::cos(b)), 0};
+  // Extremes lie at the multiples of π in between.
+  double last = std::cos(a);
+  for (double k = std::ceil(a / pi); k * pi <= b; ++k) {
+    const double value = std::fmod(std::abs(k), 2) == 0 ? 1 : -1;
+    out.low = std::min(out.low, value);
+    out.high = std::max(out.high, value);
+    out.travel += std::abs(value - last);
+    last = value;
+  }
+  out.travel += std::abs(std::cos(b) - last);
+  return out;
+}
+
+machine::TipInterval bounds_arc(const Arc& arc, double s0, double s1) {
+  machine::TipInterval out = bounds_line(Line{arc.start, arc.end, arc.length}, s0, s1);
+  const Vec3 e2 = arc.normal.cross(arc.radial);
+  const Vec3 foot = foot_of(arc);
+  const double f0 = s0 / arc.length, f1 = s1 / arc.length;
+  const double r0 = arc.start_radius + f0 * (arc.end_radius - arc.start_radius);
+  const double r1 = arc.start_radius + f1 * (arc.end_radius - arc.start_radius);
+  const double r_low = std::min(r0, r1), r_high = std::max(r0, r1);
+  for (const Axis axis : xyz) {
+    const auto i = static_cast<Eigen::Index>(index(axis));
+    // Circle: ρ g cos(φ − φ0), g the length of the plane's shadow on this axis.
+    const double g = std::hypot(arc.radial[i], e2[i]);
+    const double phase = std::atan2(e2[i], arc.radial[i]);
+    const double a = arc.angle * f0 - phase, b = arc.angle * f1 - phase;
+    const Range c = cosine_range(std::min(a, b), std::max(a, b));
+    const double z0 = arc.rise * f0 * arc.normal[i], z1 = arc.rise * f1 * arc.normal[i];
+    // Rounding of cos and of the sums: a few units in the last place of the largest term.
+    const double slack = 4e-15 * (std::abs(foot[i]) + r_high + std::abs(arc.rise) + 1);
+    out.low[axis] =
+        foot[i] + g * std::min(r_low * c.low, r_high * c.low) + std::min(z0, z1) - slack;
+    out.high[axis] =
+        foot[i] + g * std::max(r_low * c.high, r_high * c.high) + std::max(z0, z1) + slack;
+    out.travel[axis] = g * (r_high * c.travel + (r_high - r_low)) + std::abs(z1 - z0) + 2 * slack;
+  }
+  return out;
+}
+
+machine::TipInterval bounds_blend(const Blend& blend, double s0, double s1) {
+  const Blend part = sub_blend(blend, s0 / blend.length, s1 / blend.length);
+  machine::TipInterval out;
+  for (const Axis axis : all_axes) {
+    double low = part.control[0][axis], high = low, travel = 0, size = std::abs(low);
+    for (std::size_t i = 1; i < 6; ++i) {
+      const double value = part.control[i][axis];
+      low = std::min(low, value);
+      high = std::max(high, value);
+      size = std::max(size, std::abs(value));
+      travel += std::abs(value - part.control[i - 1][axis]);
+    }
+    const double slack = high > low ? 4e-15 * size : 0;
+    out.low[axis] = low - slack;
+    out.high[axis] = high + slack;
+    out.travel[axis] = travel + 2 * slack;
+  }
+  return out;
+}
+
+}  // namespace
+
+Vec3 foot_of(const Arc& arc) {
+  const Vec3 start(arc.start[Axis::x], arc.start[Axis::y], arc.start[Axis::z]);
+  return arc.centre + (start - arc.centre).dot(arc.normal) * arc.normal;
+}
+
+Blend sub_blend(const Blend& blend, double u0, double u1) {
+  // Cut at u1 and keep the left part, then cut that at u0 / u1 and keep the right part.
+  const double cut = u1 > 0 ? std::clamp(u0 / u1, 0.0, 1.0) : 0;
+  Blend out;
+  out.length = blend.length * (u1 - u0);
+  for (const Axis axis : all_axes) {
+    std::array<double, 6> c{}, left{};
+    for (std::size_t i = 0; i < 6; ++i) c[i] = blend.control[i][axis];
+    for (std::size_t n = 6; n > 0; --n) {
+      left[6 - n] = c[0];
+      for (std::size_t i = 0; i + 1 < n; ++i) c[i] += u1 * (c[i + 1] - c[i]);
+    }
+    for (std::size_t n = 6; n > 0; --n) {
+      out.control[n - 1][axis] = left[n - 1];
+      for (std::size_t i = 0; i + 1 < n; ++i) left[i] += cut * (left[i + 1] - left[i]);
+    }
+  }
+  return out;
+}
+
+double length(const Path& path) {
+  return std::visit(
+      overloaded{[](const Hold&) { return 0.0; }, [](const Line& line) { return line.length; },
+                 [](const Arc& arc) { return arc.length; },
+                 [](const Blend& blend) { return blend.length; }},
+      path);
+}
+
+PathPoint evaluate(const Path& path, double s) {
+  return std::visit(overloaded{[](const Hold& hold) {
+                                 return PathPoint{hold.at, {}, {}, {}};
+                               },
+                               [s](const Line& line) { return evaluate_line(line, s); },
+                               [s](const Arc& arc) { return evaluate_arc(arc, s); },
+                               [s](const Blend& blend) { return evaluate_blend(blend, s); }},
+                    path);
+}
+
+machine::TipInterval bounds(const Path& path, double s0, double s1) {
+  return std::visit(overloaded{[](const Hold& hold) {
+                                 return machine::TipInterval{hold.at, hold.at, {}, {}};
+                               },
+                               [&](const Line& line) { return bounds_line(line, s0, s1); },
+                               [&](const Arc& arc) { return bounds_arc(arc, s0, s1); },
+                               [&](const Blend& blend) { return bounds_blend(blend, s0, s1); }},
+                    path);
+}
+
+std::string_view to_string(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::idle:
+      return "idle";
+    case MotionKind::rapid:
+      return "rapid";
+    case MotionKind::feed:
+      return "feed";
+    case MotionKind::arc:
+      return "arc";
+    case MotionKind::tool_change:
+      return "tool change";
+    case MotionKind::probe:
+      return "probe";
+    case MotionKind::dwell:
+      return "dwell";
+    case MotionKind::sync:
+      return "sync";
+    case MotionKind::blend:
+      return "blend";
+  }
+  return "idle";
+}
+
+}  // namespace aircut::plan

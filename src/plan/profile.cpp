@@ -1,0 +1,25 @@
+// Evaluation of s(t): a search for the knot, then its polynomial.
+#include <algorithm>
+
+#include "plan/plan.h"
+
+namespace aircut::plan {
+
+SpeedProfile::State SpeedProfile::at(double t) const {
+  if (knots.empty()) return {};
+  const ProfileKnot& last = knots.back();
+  if (t >= last.t) return {last.s, last.v, last.a};
+  const auto after = std::upper_bound(knots.begin(), knots.end(), t,
+                                      [](double time, const ProfileKnot& k) { return time < k.t; });
+  if (after == knots.begin()) {
+    const ProfileKnot& first = knots.front();
+    return {first.s, first.v, first.a};
+  }
+  const ProfileKnot& k = *(after - 1);
+  const double tau = t - k.t;
+  const double s = k.s + tau * (k.v + tau * (k.a / 2 + tau * k.j / 6));
+  // Rounding must not carry s past the next knot: s never runs backwards.
+  return {std::clamp(s, k.s, after->s), k.v + tau * (k.a + tau * k.j / 2), k.a + tau * k.j};
+}
+
+}  // namespace aircut::plan

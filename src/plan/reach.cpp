@@ -1,0 +1,96 @@
+// A finite bound of the joints' travel over a box of tips (Kinematics::travel_bound) says that
+// every tip in the box can be reached. The piece is halved until each part has such a bound; a part
+// that has none and is shorter than 1e-6 of the piece is decided by the inverse at its end. Parts
+// are taken from left to right, so the first bad one is the first bad place.
+//
+// A kinematics whose bounds are never finite would need a million parts: after `budget` questions
+// the rest is looked at in 4096 places instead. (The simulator asks for bounds again and reports
+// what it can't prove, so nothing becomes "fine" by this.)
+#include "plan/reach.h"
+
+namespace aircut::plan {
+namespace {
+
+using machine::JointVector;
+using machine::Target;
+
+class Search {
+ public:
+  Search(const machine::Kinematics& kinematics, const Path& path, const AxisValues& tool_offset,
+         JointVector near, std::span<double> scratch)
+      : kinematics_(kinematics),
+        path_(path),
+        tool_offset_(tool_offset),
+        near_(std::move(near)),
+        scratch_(scratch),
+        smallest_(1e-6 * length(path)) {}
+
+  std::optional<ReachLimit> run() {
+    if (const auto reason = look(0)) return ReachLimit{0, 0, *reason};
+    const double end = length(path_);
+    return split(0, end);
+  }
+
+ private:
+  // Why s can't be reached; nothing when it can.
+  std::optional<std::string> look(double s) {
+    auto q = kinematics_.inverse(Target{evaluate(path_, s).p, tool_offset_}, near_);
+    if (!q) return q.error().reason;
+    near_ = std::move(*q);
+    return std::nullopt;
+  }
+
+  bool proven(double s0, double s1) {
+    if (budget_ == 0) return false;
+    --budget_;
+    machine::TipInterval tip = bounds(path_, s0, s1);
+    tip.tool_offset = tool_offset_;
+    return kinematics_.travel_bound(tip, scratch_);
+  }
+
+  // s0 is known to be good.
+  std::optional<ReachLimit> split(double s0, double s1) {
+    if (proven(s0, s1)) return std::nullopt;
+    const bool coarse = budget_ == 0 && s1 - s0 <= length(path_) / 4096;
+    if (s1 - s0 <= smallest_ || coarse) {
+      const auto reason = look(s1);
+      if (!reason) return std::nullopt;
+      return s1 - s0 <= smallest_ ? ReachLimit{s0, s1, *reason} : bisect(s0, s1, *reason);
+    }
+    const double middle = s0 + (s1 - s0) / 2;
+    if (auto bad = split(s0, middle)) return bad;
+    return split(middle, s1);
+  }
+
+  ReachLimit bisect(double good, double bad, std::string reason) {
+    while (bad - good > smallest_) {
+      const double middle = good + (bad - good) / 2;
+      if (auto why = look(middle)) {
+        bad = middle;
+        reason = std::move(*why);
+      } else {
+        good = middle;
+      }
+    }
+    return {good, bad, std::move(reason)};
+  }
+
+  const machine::Kinematics& kinematics_;
+  const Path& path_;
+  const AxisValues& tool_offset_;
+  JointVector near_;
+  std::span<double> scratch_;
+  double smallest_;
+  int budget_ = 4096;
+};
+
+}  // namespace
+
+std::optional<ReachLimit> find_reach_limit(const machine::Kinematics& kinematics, const Path& path,
+                                           const AxisValues& tool_offset,
+                                           const machine::JointVector& near,
+                                           std::span<double> scratch) {
+  return Search(kinematics, path, tool_offset, near, scratch).run();
+}
+
+}  // namespace aircut::plan

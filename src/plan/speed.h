@@ -1,0 +1,26 @@
+// Private: the fastest speed profile over a chain of pieces, second order.
+#pragma once
+
+#include <span>
+
+#include "plan/grid.h"
+
+namespace aircut::plan {
+
+/// Squared speeds that can be braked from, per node of one piece.
+using Controllable = std::vector<double>;
+
+/// Fills `out` for a piece that must be left with b ≤ `b_end`; returns out.front().
+double brake(const Grid& grid, double b_end, Controllable& out);
+
+/// Result of carrying a piece out.
+struct Ride {
+  SpeedProfile profile;
+  double b_end = 0;
+  std::array<double, 5> time{};  ///< s spent, by LimitedBy
+};
+
+/// The fastest ride from b_start, given what brake() found.
+Ride accelerate(const Grid& grid, const Controllable& controllable, double b_start);
+
+}  // namespace aircut::plan
