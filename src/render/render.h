@@ -69,8 +69,11 @@ struct Scene {
   bool triad = true;
 };
 
+enum class Supersample : unsigned char { once, twice };
+
 struct FrameSize {
-  int width = 1280, height = 800;
+  int width = 1280, height = 800;               ///< pixels, 1 to 16384
+  Supersample supersample = Supersample::once;  ///< on top of 4 samples a pixel
 };
 
 /// Holds the off-screen context and uploaded meshes (by address). One per thread.

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "render/gl.h"
+
+namespace aircut::render {
+
+/// All shader programs, linked once per renderer.
+struct Programs {
+  Program body, geometry, depth, id, light, smooth, background, floor, floor_geometry, xray, line;
+};
+
+Expected<Programs> link_programs(const Gl& gl);
+
+}  // namespace aircut::render

@@ -1,0 +1,29 @@
+// The GLSL programs, version 3.30 core. Frames: `world` is the render frame of camera.h, Z up.
+#pragma once
+
+namespace aircut::render::shaders {
+
+// Surfaces of bodies, lit.
+extern const char* const body_vertex;
+extern const char* const body_fragment;
+// Normals and depth of opaque surfaces in half resolution; shadow map; numbers of bodies.
+extern const char* const geometry_fragment;
+extern const char* const depth_vertex;
+extern const char* const depth_fragment;
+extern const char* const id_fragment;
+// Full-frame passes over the half-resolution picture.
+extern const char* const screen_vertex;
+extern const char* const light_fragment;
+extern const char* const smooth_fragment;
+extern const char* const background_fragment;
+// The floor catches shadows and carries the grid.
+extern const char* const floor_vertex;
+extern const char* const floor_fragment;
+extern const char* const floor_geometry_fragment;
+// What covered bodies in alarm look like through their covers.
+extern const char* const xray_fragment;
+// Straight lines of constant width in pixels.
+extern const char* const line_vertex;
+extern const char* const line_fragment;
+
+}  // namespace aircut::render::shaders

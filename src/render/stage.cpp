@@ -1,0 +1,119 @@
+#include "render/stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aircut::render {
+namespace {
+
+Box3 moved(const Box3& box, const Eigen::Matrix4d& X) {
+  Box3 out;
+  if (box.isEmpty()) return out;
+  for (const Vec3& corner : corners(box))
+    out.extend(Vec3((X * Eigen::Vector4d(corner.x(), corner.y(), corner.z(), 1)).head<3>()));
+  return out;
+}
+
+// The lamps stand with the photographer: key from the upper left behind the camera, fill from the
+// right, rim from behind the scene.
+Lamps place_lamps(const View& view) {
+  Lamps out;
+  Vec3 right = view.axes.row(0);
+  right.z() = 0;
+  right = right.norm() > 1e-6 ? Vec3(right.normalized()) : Vec3(Vec3::UnitX());
+  out.right = right;
+  out.ahead = Vec3::UnitZ().cross(right);
+  const Vec3 up = Vec3::UnitZ();
+  out.key = (-0.62 * out.right - 0.42 * out.ahead + 1.05 * up).normalized();
+  out.fill = (0.90 * out.right - 0.55 * out.ahead + 0.35 * up).normalized();
+  out.rim = (0.35 * out.right + 0.85 * out.ahead + 0.60 * up).normalized();
+  return out;
+}
+
+// A parallel projection along the key light that just holds the sphere around all bodies.
+void place_shadow(Stage& stage) {
+  const Vec3 centre = stage.solid.center();
+  const double radius = stage.solid.diagonal().norm() / 2 * 1.01 + 1e-3;
+  const Vec3 z = stage.lamps.key;
+  const Vec3 x = Vec3::UnitZ().cross(z).normalized();
+  Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
+  M.row(0).head<3>() = x / radius;
+  M.row(1).head<3>() = z.cross(x) / radius;
+  M.row(2).head<3>() = -z / radius;
+  M.topRightCorner<3, 1>() = -(M.topLeftCorner<3, 3>() * centre);
+  stage.world_to_shadow = M;
+  stage.shadow_size = 2 * radius;
+  stage.shadow_depth = 2 * radius;
+}
+
+}  // namespace
+
+double round_down_125(double value) {
+  if (!(value > 0) || !std::isfinite(value)) return 1;
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  const double lead = value / power * (1 + 1e-12);
+  return (lead >= 5 ? 5 : lead >= 2 ? 2 : 1) * power;
+}
+
+Eigen::Matrix4d tile_projection(const View& view, const Tile& tile) {
+  Eigen::Matrix4d T = Eigen::Matrix4d::Identity();
+  T(0, 0) = static_cast<double>(view.width) / tile.width;
+  T(1, 1) = static_cast<double>(view.height) / tile.height;
+  T(0, 3) = static_cast<double>(view.width - 2 * tile.x - tile.width) / tile.width;
+  T(1, 3) = static_cast<double>(view.height - 2 * tile.y - tile.height) / tile.height;
+  return T * view.projection;
+}
+
+Stage make_stage(const Scene& scene, const Camera& camera, MeshCache& meshes, int width,
+                 int height) {
+  meshes.next_frame();
+  Stage out;
+  Box3 solid, contents;
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const DrawBody& body = scene.bodies[i];
+    if (body.mesh == nullptr || !body.X_WB.matrix().allFinite()) continue;
+    StageItem item{&body, static_cast<int>(i), &meshes.get(body.mesh), body.X_WB.matrix(), {}, 0};
+    item.box = moved(item.mesh->shape().box, item.model);
+    if (item.box.isEmpty()) continue;
+    solid.extend(item.box);
+    out.items.push_back(std::move(item));
+  }
+  contents = solid;
+  for (const DrawLine& line : scene.lines)
+    for (const Vec3& p : line.points)
+      if (p.allFinite()) contents.extend(p);
+  // The floor reaches far beyond the bodies and is faded out there.
+  Box3 with_floor = contents;
+  if (scene.floor && !solid.isEmpty()) {
+    const double diagonal = solid.diagonal().norm();
+    Floor floor;
+    floor.height = solid.min().z() - 5e-4 * diagonal;
+    floor.extent = 2.6 * diagonal;
+    floor.step = round_down_125(diagonal / 22);
+    if (camera.eye.z() > floor.height) {
+      const Vec3 c = solid.center(), half(floor.extent, floor.extent, 0);
+      with_floor.extend(Vec3(c.x(), c.y(), floor.height) + half);
+      with_floor.extend(Vec3(c.x(), c.y(), floor.height) - half);
+      out.floor = floor;
+    }
+  }
+  out.view = make_view(camera, with_floor, width, height);
+  const Vec3 centre = out.view.centre;
+  for (StageItem& item : out.items) {
+    item.model.topRightCorner<3, 1>() -= centre;
+    item.box.translate(-centre);
+    item.depth = 1e300;
+    for (const Vec3& corner : corners(item.box))
+      item.depth = std::min(item.depth, -(out.view.axes.row(2) * (corner - out.view.eye)).value());
+  }
+  std::stable_sort(out.items.begin(), out.items.end(),
+                   [](const StageItem& a, const StageItem& b) { return a.depth < b.depth; });
+  if (out.floor) out.floor->height -= centre.z();
+  out.solid = solid;
+  if (!solid.isEmpty()) out.solid.translate(-centre);
+  out.lamps = place_lamps(out.view);
+  if (!out.solid.isEmpty()) place_shadow(out);
+  return out;
+}
+
+}  // namespace aircut::render
