@@ -35,7 +35,7 @@ PathPoint evaluate_line(const Line& line, double s) {
 }
 
 PathPoint evaluate_arc(const Arc& arc, double s) {
-  PathPoint out;
+  PathPoint out = evaluate_line(Line{arc.start, arc.end, arc.length}, s);  // ABC and UVW
   const double w = arc.angle / arc.length;  // dφ/ds
   const double phi = w * s;
   const double dr = (arc.end_radius - arc.start_radius) / arc.length;
@@ -49,9 +49,6 @@ PathPoint evaluate_arc(const Arc& arc, double s) {
   const Vec3 d = dr * c + r * w * n + climb * arc.normal;
   const Vec3 dd = 2 * dr * w * n - r * w * w * c;
   const Vec3 ddd = -3 * dr * w * w * c - r * w * w * w * n;
-  const AxisValues slope = (1 / arc.length) * (arc.end - arc.start);
-  out.p = arc.start + s * slope;
-  out.d = slope;
   for (const Axis axis : xyz) {
     const auto i = static_cast<Eigen::Index>(index(axis));
     out.p[axis] = p[i];
