@@ -74,10 +74,10 @@ std::string quoted(std::string_view text) {
   return out;
 }
 
-std::string list_of(const std::vector<std::string>& words) {
+std::string list_of(const std::vector<std::string>& words, const std::string& last = "or") {
   std::string out;
   for (std::size_t i = 0; i < words.size(); ++i)
-    out += (i == 0 ? "" : i + 1 == words.size() ? " or " : ", ") + quoted(words[i]);
+    out += (i == 0 ? "" : i + 1 == words.size() ? " " + last + " " : ", ") + quoted(words[i]);
   return out;
 }
 
@@ -380,8 +380,10 @@ Diagnostics Reader::finish() {
     const std::vector<std::string> known(node.known.begin(), node.known.end());
     for (const auto& [key, value] : *node.table) {
       if (node.known.contains(std::string(key.str()))) continue;
+      std::string hint = did_you_mean(key.str(), known);
+      if (hint.empty() && !known.empty()) hint = " Known here: " + list_of(known, "and") + ".";
       document_->error(document_->places.span(key.source()),
-                       "unknown key " + quoted(key.str()) + "." + did_you_mean(key.str(), known));
+                       "unknown key " + quoted(key.str()) + "." + hint);
     }
   }
   // Within our text by place; what has another place (a mesh file) or none keeps its turn at the
