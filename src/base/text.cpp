@@ -30,11 +30,14 @@ std::string fixed(double value, int decimals) {
 }
 
 std::optional<double> parse_number(std::string_view text) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+  if (text.starts_with('+')) {
+    text.remove_prefix(1);
+    if (text.starts_with('-')) return std::nullopt;
+  }
   const std::size_t sign = text.starts_with('-') ? 1 : 0;
   if (text.size() <= sign) return std::nullopt;
   const char first = text[sign];
-  if (first != '.' && (first < '0' || first > '9')) return std::nullopt;  // inf, nan, "+-1"
+  if (first != '.' && (first < '0' || first > '9')) return std::nullopt;  // inf, nan
   double value = 0;
   const auto done =
       std::from_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed);

@@ -1,6 +1,7 @@
 #include "cli/arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 
 #include "cli/exit_code.h"
@@ -68,8 +69,8 @@ Expected<std::vector<std::pair<std::string, double>>> assignments(
   std::vector<std::pair<std::string, double>> out;
   for (const std::string& text : texts) {
     const std::size_t equals = text.find('=');
-    const auto value =
-        equals == std::string::npos ? std::nullopt : parse_number(text.substr(equals + 1));
+    std::optional<double> value;
+    if (equals != std::string::npos) value = parse_number(text.substr(equals + 1));
     if (!text.starts_with('#') || !value)
       return unexpected(make_error(
           "usage",
@@ -81,16 +82,14 @@ Expected<std::vector<std::pair<std::string, double>>> assignments(
 
 Expected<std::pair<int, int>> picture_size(const std::string& text) {
   const std::size_t x = text.find('x');
-  const auto w = parse_number(text.substr(0, x));
-  const auto h = x == std::string::npos ? std::nullopt : parse_number(text.substr(x + 1));
-  const auto good = [](const std::optional<double>& v) {
-    return v && *v >= 16 && *v <= 8192 && *v == static_cast<int>(*v);
-  };
+  const double w = parse_number(text.substr(0, x)).value_or(0);
+  const double h = x == std::string::npos ? 0 : parse_number(text.substr(x + 1)).value_or(0);
+  const auto good = [](double v) { return v >= 16 && v <= 8192 && v == std::floor(v); };
   if (!good(w) || !good(h))
     return unexpected(
         make_error("usage", "--size '" + printable(text) +
                                 "': write WIDTHxHEIGHT in pixels from 16 to 8192, like 1280x800"));
-  return std::pair(static_cast<int>(*w), static_cast<int>(*h));
+  return std::pair(static_cast<int>(w), static_cast<int>(h));
 }
 
 int usage_error(const Diagnostic& d, const std::string& command) {
