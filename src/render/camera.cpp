@@ -41,6 +41,7 @@ Mat3 camera_axes(const Vec3& back, const Vec3& up) {
 Camera fitted(const NamedView& name, const Box3& fit, double aspect) {
   constexpr double margin = 0.84;  // of the half picture; the caption lies at the top
   Camera out;
+  out.field_of_view = 0.42;  // a long lens: verticals stay nearly upright
   const double ty = std::tan(out.field_of_view / 2) * margin;
   const double tx = std::tan(out.field_of_view / 2) * std::max(aspect, 1e-3) * margin;
   const Mat3 axes = camera_axes(name.back, name.up);
@@ -158,6 +159,12 @@ View make_view(const Camera& camera, const Box3& contents, int width, int height
     out.mm_per_pixel = 2 * slope * out.distance / height;
   }
   return out;
+}
+
+double View::depth(const Vec3& world) const {
+  const Vec3 p = world - centre;
+  const Eigen::Vector4d clip = view_projection() * Eigen::Vector4d(p.x(), p.y(), p.z(), 1);
+  return (clip.z() / clip.w() + 1) / 2;
 }
 
 std::optional<Eigen::Vector2d> View::pixel(const Vec3& world) const {

@@ -23,6 +23,8 @@ struct View {
   Eigen::Matrix4d view_projection() const { return projection * view; }
   /// Pixel of a world point, y down; nothing when it lies behind the camera.
   std::optional<Eigen::Vector2d> pixel(const Vec3& world) const;
+  /// Depth buffer value of a world point, 0 to 1.
+  double depth(const Vec3& world) const;
 };
 
 /// `contents` is what must lie between the clipping planes, world.

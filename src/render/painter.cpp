@@ -55,6 +55,7 @@ struct Painter::Frame {
   double line_scale;
   Eigen::Matrix4d projection;  // camera to clip space of the tile
   Eigen::Vector4d unproject;
+  Eigen::Matrix4d to_clip;        // render frame to clip space of the tile
   std::vector<int> alarm_number;  // per body of the scene: its number among those in alarm, or -1
 
   const View& view() const { return stage.view; }
@@ -107,7 +108,7 @@ void Painter::draw_light(const Frame& frame) const {
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   set_body_program(frame, programs_->geometry);
   for (const StageItem& item : stage.items) {
-    if (item.body->translucent) continue;
+    if (item.body->translucent || !in_view(item.box, frame.to_clip)) continue;
     programs_->geometry.set("model", item.model);
     cull(*item.mesh);
     item.mesh->draw_triangles();
@@ -236,7 +237,7 @@ void Painter::draw_solids(const Frame& frame) const {
   gl.Enable(GL_STENCIL_TEST);
   gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   for (const StageItem& item : frame.stage.items) {
-    if (item.body->translucent) continue;
+    if (item.body->translucent || !in_view(item.box, frame.to_clip)) continue;
     gl.StencilFunc(GL_ALWAYS, item.body->highlight ? 1 : 0, 0xFF);
     set_material(item, frame);
     cull(*item.mesh);
@@ -314,7 +315,7 @@ void Painter::draw_item_edges(const Frame& frame, const StageItem& item) const {
 void Painter::draw_edges(const Frame& frame) const {
   set_line_program(frame, 1.05, edge_lift, 1);
   for (const StageItem& item : frame.stage.items)
-    if (!item.body->translucent) draw_item_edges(frame, item);
+    if (!item.body->translucent && in_view(item.box, frame.to_clip)) draw_item_edges(frame, item);
   gl_->DepthMask(GL_TRUE);
   gl_->Disable(GL_BLEND);
 }
@@ -398,7 +399,8 @@ void Painter::draw_xray(const Frame& frame) const {
 void Painter::draw_tile(const Stage& stage, const Scene& scene, const Tile& tile,
                         double line_scale) const {
   const Gl& gl = *gl_;
-  Frame frame{stage, scene, tile, line_scale, tile_projection(stage.view, tile), {}, {}};
+  Frame frame{stage, scene, tile, line_scale, tile_projection(stage.view, tile), {}, {}, {}};
+  frame.to_clip = frame.projection * stage.view.view;
   const Eigen::Matrix4d& Q = frame.projection;
   // clip = Q·camera, so camera = (ndc + offset) · scale, times the depth in a perspective view.
   const Eigen::Vector2d offset = stage.view.orthographic ? Eigen::Vector2d(-Q(0, 3), -Q(1, 3))
@@ -435,7 +437,7 @@ void Painter::draw_tile(const Stage& stage, const Scene& scene, const Tile& tile
   gl.BindFramebuffer(GL_FRAMEBUFFER, targets_->resolved.get());
 }
 
-void Painter::draw_ids(const Stage& stage, const Tile& tile, bool translucent) const {
+void Painter::start_ids(const Tile& tile) const {
   const Gl& gl = *gl_;
   gl.BindFramebuffer(GL_FRAMEBUFFER, targets_->id.get());
   gl.Viewport(0, 0, tile.width, tile.height);
@@ -444,20 +446,23 @@ void Painter::draw_ids(const Stage& stage, const Tile& tile, bool translucent) c
   gl.DepthMask(GL_TRUE);
   gl.Disable(GL_BLEND);
   gl.Disable(GL_STENCIL_TEST);
-  gl.ClearColor(0, 0, 0, 0);
-  gl.Clear(translucent ? GL_COLOR_BUFFER_BIT : GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   programs_->id.use();
-  const Eigen::Matrix4d to_clip = tile_projection(stage.view, tile) * stage.view.view;
-  for (const StageItem& item : stage.items) {
-    if (item.body->translucent != translucent) continue;
-    const unsigned id = static_cast<unsigned>(item.index) + 1;
-    programs_->id.set("transform", Eigen::Matrix4d(to_clip * item.model));
-    programs_->id.set(
-        "id", Eigen::Vector4d(
-                  Eigen::Vector4d(id & 0xFFu, (id >> 8) & 0xFFu, (id >> 16) & 0xFFu, 255) / 255.0));
-    cull(*item.mesh);
-    item.mesh->draw_triangles();
-  }
+}
+
+void Painter::clear_ids(const Tile& tile, bool keep_depth) const {
+  start_ids(tile);
+  gl_->ClearColor(0, 0, 0, 0);
+  gl_->Clear(keep_depth ? GL_COLOR_BUFFER_BIT : GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void Painter::draw_id(const StageItem& item, const Eigen::Matrix4d& to_clip) const {
+  if (!in_view(item.box, to_clip)) return;
+  const unsigned id = static_cast<unsigned>(item.index) + 1;
+  const Eigen::Vector4d bytes(id & 0xFFu, (id >> 8) & 0xFFu, (id >> 16) & 0xFFu, 255);
+  programs_->id.set("transform", Eigen::Matrix4d(to_clip * item.model));
+  programs_->id.set("id", Eigen::Vector4d(bytes / 255.0));
+  cull(*item.mesh);
+  item.mesh->draw_triangles();
 }
 
 }  // namespace aircut::render

@@ -16,12 +16,21 @@ class Painter {
   void draw_shadow_map(const Stage& stage) const;
   /// One tile into targets.resolved. `line_scale` is the width of a fine line in pixels.
   void draw_tile(const Stage& stage, const Scene& scene, const Tile& tile, double line_scale) const;
-  /// Numbers of bodies (index + 1 as RGB) into targets.id; the second call adds nothing to what the
-  /// first one drew but keeps its depth.
-  void draw_ids(const Stage& stage, const Tile& tile, bool translucent) const;
+  /// Empties targets.id for a tile: numbers, and depth too unless it is to stay.
+  void clear_ids(const Tile& tile, bool keep_depth) const;
+  /// Numbers of bodies (index + 1 as RGB) of those items that `wanted` picks.
+  template <class Wanted>
+  void draw_ids(const Stage& stage, const Tile& tile, const Wanted& wanted) const {
+    start_ids(tile);
+    const Eigen::Matrix4d to_clip = tile_projection(stage.view, tile) * stage.view.view;
+    for (const StageItem& item : stage.items)
+      if (wanted(*item.body)) draw_id(item, to_clip);
+  }
 
  private:
   struct Frame;
+  void start_ids(const Tile& tile) const;
+  void draw_id(const StageItem& item, const Eigen::Matrix4d& to_clip) const;
   void draw_light(const Frame& frame) const;
   void draw_backdrop(const Frame& frame) const;
   void draw_floor(const Frame& frame) const;

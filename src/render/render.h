@@ -86,7 +86,10 @@ class Renderer {
 
   Image draw(const Scene& scene, const Camera& camera);
   /// Pixels that show each body (index into scene.bodies), for tests and for choosing cameras.
+  /// Translucent bodies hide nothing here.
   std::vector<int> visible_pixels(const Scene& scene, const Camera& camera);
+  /// As the function above, with the meshes that this renderer holds already and its aspect.
+  Camera camera_for_finding(const std::vector<DrawBody>& bodies, const Vec3& point, double span);
 
  private:
   Renderer();
@@ -98,7 +101,8 @@ struct SheetCell {
   Image image;
   std::string caption;
 };
-/// Contact sheet: cells in a grid, each scaled down and captioned.
+/// Contact sheet: cells in a grid, each scaled down and captioned. A picture without size when the
+/// fonts are missing (then no Renderer can be created either).
 Image contact_sheet(const std::vector<SheetCell>& cells, int columns, int cell_width,
                     const std::string& title);
 

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
+#include "render/finding_camera.h"
 #include "render/overlay.h"
 #include "render/painter.h"
 
@@ -86,6 +88,8 @@ struct Renderer::Impl {
   }
   int factor() const { return size.supersample == Supersample::twice ? 2 : 1; }
   std::vector<unsigned char> read_tile(const Tile& tile) const;
+  // Depth (0 near, 1 far) in the framebuffer that is bound.
+  double nearest_depth(int x, int y) const;
   Expected<void> start();
 };
 
@@ -115,6 +119,12 @@ std::vector<unsigned char> Renderer::Impl::read_tile(const Tile& tile) const {
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.ReadPixels(0, 0, tile.width, tile.height, GL_RGBA, GL_UNSIGNED_BYTE, out.data());
   return out;
+}
+
+double Renderer::Impl::nearest_depth(int x, int y) const {
+  float out = 1;
+  gl.ReadPixels(x, y, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &out);
+  return static_cast<double>(out);
 }
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
@@ -163,28 +173,78 @@ Image Renderer::draw(const Scene& scene, const Camera& camera) {
   return image;
 }
 
+namespace {
+
+// Body index + 1 per pixel; 0 where there is none.
+std::vector<int> decode_ids(const std::vector<unsigned char>& pixels) {
+  std::vector<int> out;
+  out.reserve(pixels.size() / 4);
+  for (std::size_t i = 0; i < pixels.size(); i += 4)
+    out.push_back(pixels[i] + 256 * pixels[i + 1] + 65536 * pixels[i + 2]);
+  return out;
+}
+
+}  // namespace
+
 std::vector<int> Renderer::visible_pixels(const Scene& scene, const Camera& camera) {
   Impl& r = *impl_;
   r.context->make_current();
   const Stage stage = make_stage(scene, camera, *r.meshes, r.size.width, r.size.height);
   const Painter painter(r.gl, r.programs, r.targets);
   std::vector<int> out(scene.bodies.size(), 0);
-  const int tile_width = std::min(r.size.width, r.tile_width);
-  const int tile_height = std::min(r.size.height, r.tile_height);
-  for (int y = 0; y < r.size.height; y += tile_height)
-    for (int x = 0; x < r.size.width; x += tile_width) {
-      const Tile tile{x, y, std::min(tile_width, r.size.width - x),
-                      std::min(tile_height, r.size.height - y)};
+  for (int y = 0; y < r.size.height; y += r.tile_height)
+    for (int x = 0; x < r.size.width; x += r.tile_width) {
+      const Tile tile{x, y, std::min(r.tile_width, r.size.width - x),
+                      std::min(r.tile_height, r.size.height - y)};
       for (const bool translucent : {false, true}) {
-        painter.draw_ids(stage, tile, translucent);
-        const auto pixels = r.read_tile(tile);
-        for (std::size_t i = 0; i < pixels.size(); i += 4) {
-          const std::size_t id = pixels[i] + 256u * pixels[i + 1] + 65536u * pixels[i + 2];
-          if (id > 0 && id <= out.size()) ++out[id - 1];
-        }
+        painter.clear_ids(tile, translucent);
+        painter.draw_ids(stage, tile,
+                         [&](const DrawBody& body) { return body.translucent == translucent; });
+        for (const int id : decode_ids(r.read_tile(tile)))
+          if (id > 0 && static_cast<std::size_t>(id) <= out.size())
+            ++out[static_cast<std::size_t>(id) - 1];
       }
     }
   return out;
+}
+
+Camera Renderer::camera_for_finding(const std::vector<DrawBody>& bodies, const Vec3& point,
+                                    double span) {
+  Impl& r = *impl_;
+  r.context->make_current();
+  const double aspect = static_cast<double>(r.size.width) / r.size.height;
+  constexpr double most_pixels = 120.0 * 192.0;
+  const double shrink =
+      std::min(1.0, std::sqrt(most_pixels / (static_cast<double>(r.size.width) * r.size.height)));
+  const int width =
+      std::clamp(static_cast<int>(std::lround(r.size.width * shrink)), 1, r.tile_width);
+  const int height =
+      std::clamp(static_cast<int>(std::lround(r.size.height * shrink)), 1, r.tile_height);
+  const Tile tile{0, 0, width, height};
+  const Painter painter(r.gl, r.programs, r.targets);
+  Scene scene;
+  scene.bodies = bodies;
+  scene.floor = false;
+  Camera best;
+  double best_score = -1;
+  for (const Vec3& direction : candidate_directions()) {
+    const Camera camera = contact_camera(point, direction, span, aspect);
+    const Stage stage = make_stage(scene, camera, *r.meshes, width, height);
+    painter.clear_ids(tile, false);
+    painter.draw_ids(stage, tile,
+                     [](const DrawBody& body) { return !body.translucent && !body.highlight; });
+    ContactView view{
+        width, height, {}, r.nearest_depth(width / 2, height / 2) >= stage.view.depth(point)};
+    painter.draw_ids(stage, tile,
+                     [](const DrawBody& body) { return !body.translucent && body.highlight; });
+    view.ids = decode_ids(r.read_tile(tile));
+    const double score = contact_score(view, bodies);
+    if (score > best_score + 1e-9) {
+      best = camera;
+      best_score = score;
+    }
+  }
+  return best;
 }
 
 }  // namespace aircut::render

@@ -64,6 +64,17 @@ Eigen::Matrix4d tile_projection(const View& view, const Tile& tile) {
   return T * view.projection;
 }
 
+bool in_view(const Box3& box, const Eigen::Matrix4d& to_clip) {
+  // How far each corner lies inside the six planes: w ± x, w ± y, w ± z, all positive inside.
+  Eigen::Vector3d low = Vec3::Constant(-1e300), high = low;
+  for (const Vec3& p : corners(box)) {
+    const Eigen::Vector4d c = to_clip * Eigen::Vector4d(p.x(), p.y(), p.z(), 1);
+    low = low.cwiseMax(Vec3(c.w() + c.x(), c.w() + c.y(), c.w() + c.z()));
+    high = high.cwiseMax(Vec3(c.w() - c.x(), c.w() - c.y(), c.w() - c.z()));
+  }
+  return low.minCoeff() >= 0 && high.minCoeff() >= 0;
+}
+
 Stage make_stage(const Scene& scene, const Camera& camera, MeshCache& meshes, int width,
                  int height) {
   meshes.next_frame();

@@ -48,6 +48,8 @@ Stage make_stage(const Scene& scene, const Camera& camera, MeshCache& meshes, in
                  int height);
 /// From clip space of the whole picture to that of a tile.
 Eigen::Matrix4d tile_projection(const View& view, const Tile& tile);
+/// False when a box (render frame) lies wholly outside one plane of the view.
+bool in_view(const Box3& box, const Eigen::Matrix4d& to_clip);
 /// The number of 1, 2, 5 · 10^n next below.
 double round_down_125(double value);
 
