@@ -11,6 +11,9 @@
 // (COLLADA's own unit sits in the root's matrix).
 #include "geometry/mesh_import.h"
 
+#include <assimp/importerdesc.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -28,10 +31,6 @@
 #include <optional>
 #include <set>
 #include <utility>
-
-#include "assimp/importerdesc.h"
-#include "assimp/postprocess.h"
-#include "assimp/scene.h"
 
 namespace aircut::geometry {
 namespace {
