@@ -1,0 +1,125 @@
+// Runs every program of programs/ and compares what each line gives with what its comments say.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <set>
+
+#include "interp_programs/program_file.h"
+
+namespace aircut::test {
+namespace {
+
+const std::string folder = AIRCUT_SOURCE_DIR "/tests/interp_programs/programs";
+
+std::string joined(const std::vector<std::string>& parts, const char* separator) {
+  std::string out;
+  for (const std::string& part : parts) out += (out.empty() ? "" : separator) + part;
+  return out.empty() ? "nothing" : out;
+}
+
+/// What came out, by line of the program.
+std::map<std::uint32_t, Expectation> by_line(const Outcome& outcome) {
+  std::map<std::uint32_t, Expectation> lines;
+  for (const canon::Command& command : outcome.commands) {
+    if (command.block == 0 || command.span.line == 0) continue;
+    auto& commands = lines[command.span.line].commands;
+    if (!commands) commands.emplace();
+    commands->push_back(canon::to_text(command.action));
+  }
+  for (const Outcome::Found& found : outcome.found) {
+    auto& line = lines[found.line];
+    if (found.severity == Severity::error) line.errors.push_back(found.kind);
+    if (found.severity == Severity::warning) line.warnings.push_back(found.kind);
+  }
+  return lines;
+}
+
+bool same_commands(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same_text);
+}
+
+/// Fails for each line that gives something else than it says. Returns how many lines said
+/// something.
+int compare(const ProgramFile& program) {
+  EXPECT_EQ(program.bad_syntax, "") << program.name;
+  const Outcome outcome = run_program(program, true, folder + "/subs");
+  EXPECT_FALSE(outcome.stopped_by_limit) << program.name;
+  std::map<std::uint32_t, Expectation> got = by_line(outcome);
+  std::set<std::uint32_t> numbers;
+  for (const auto& [number, line] : program.lines) numbers.insert(number);
+  for (const auto& [number, line] : got) numbers.insert(number);
+  int said = 0;
+  for (const std::uint32_t number : numbers) {
+    const std::string place = program.name + ".ngc:" + std::to_string(number);
+    const auto found = program.lines.find(number);
+    const Expectation expected = found == program.lines.end() ? Expectation() : found->second;
+    const Expectation& is = got[number];
+    said += expected.commands.has_value() + !expected.errors.empty();
+    if (expected.commands) {
+      const auto commands = is.commands.value_or(std::vector<std::string>());
+      EXPECT_TRUE(same_commands(*expected.commands, commands))
+          << place << "\n  must give " << joined(*expected.commands, " | ") << "\n  but gives "
+          << joined(commands, " | ");
+    }
+    EXPECT_EQ(joined(expected.errors, ", "), joined(is.errors, ", ")) << place;
+    if (!expected.warnings.empty()) {
+      EXPECT_EQ(joined(expected.warnings, ", "), joined(is.warnings, ", ")) << place;
+    }
+    if (!expected.errors.empty()) {
+      EXPECT_FALSE(is.commands) << place << " is refused, so it must give nothing";
+    }
+  }
+  return said;
+}
+
+std::vector<ProgramFile> programs() {
+  const char* only = std::getenv("AIRCUT_PROGRAM");
+  std::vector<ProgramFile> all = read_program_folder(folder);
+  if (only)
+    std::erase_if(all,
+                  [&](const ProgramFile& p) { return p.name.find(only) == std::string::npos; });
+  return all;
+}
+
+TEST(Programs, GiveWhatTheirCommentsSay) {
+  int said = 0;
+  for (const ProgramFile& program : programs()) said += compare(program);
+  EXPECT_GT(said, 0);
+}
+
+TEST(Programs, ProvokeEveryKindOfError) {
+  std::set<std::string> provoked;
+  for (const ProgramFile& program : read_program_folder(folder)) {
+    for (const auto& [number, line] : program.lines) {
+      provoked.insert(line.errors.begin(), line.errors.end());
+      provoked.insert(line.warnings.begin(), line.warnings.end());
+    }
+  }
+  for (const interp::KindText& kind : interp::error_kinds())
+    EXPECT_TRUE(provoked.contains(kind.kind)) << kind.kind << " has no program that provokes it";
+  std::set<std::string> known;
+  for (const interp::KindText& kind : interp::error_kinds()) known.insert(kind.kind);
+  for (const std::string& kind : provoked)
+    EXPECT_TRUE(known.contains(kind)) << kind << " is not in the table of kinds";
+}
+
+TEST(Programs, GiveTheSameTwice) {
+  for (const ProgramFile& program : programs())
+    EXPECT_EQ(run_program(program, true, folder + "/subs").rs274,
+              run_program(program, true, folder + "/subs").rs274)
+        << program.name;
+}
+
+TEST(Comparing, OfTextsIgnoresTheLastDigits) {
+  EXPECT_TRUE(same_text("rapid X1 Y0 Z-3", "rapid X1.00009 Y-0.00001 Z-3"));
+  EXPECT_TRUE(same_text("feed X1000000", "feed X1000000.9"));
+  EXPECT_FALSE(same_text("rapid X1", "rapid X1.001"));
+  EXPECT_FALSE(same_text("rapid X1", "feed X1"));
+  EXPECT_FALSE(same_text("rapid X1", "rapid Y1"));
+  EXPECT_FALSE(same_text("rapid X1", "rapid X1 Y2"));
+  EXPECT_FALSE(same_text("message a1b", "message a2b"));
+}
+
+}  // namespace
+}  // namespace aircut::test
