@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include "support/box_machine.h"
+#include "support/run_program.h"
+
+namespace aircut::sim {
+namespace {
+
+using testing::BoxMachine;
+using testing::run_program;
+using testing::RunResult;
+
+TEST(Run, StopsMovingAtTheFirstRefusedBlockAndReadsOn) {
+  BoxMachine box;
+  const RunResult r = run_program("G21 G90\nG0 X10\nG1 X20 Q5 F100\nG0 X150\nG0 X1o\nM2\n",
+                                  box.machine(), {}, box.sources());
+  EXPECT_EQ(r.diagnostics.errors(), 2u);
+  EXPECT_EQ(r.count(Kind::collision), 0);  // the rapid through the plate was never reached
+  EXPECT_EQ(r.verdict, Verdict::fail);
+  ASSERT_EQ(r.summary.unchecked.size(), 1u);
+  EXPECT_NE(r.summary.unchecked[0].find("test.ngc:3"), std::string::npos);
+  EXPECT_NEAR(r.summary.joints[0].high, 10, 0.011);
+}
+
+TEST(Run, IsUnknownWhenUserCodesWereNotRun) {
+  BoxMachine box;
+  const RunResult r = run_program("G21 G90\nM110\nG0 X10\nM2\n", box.machine(), {}, box.sources());
+  EXPECT_EQ(r.count(Kind::not_executed), 1);
+  EXPECT_EQ(r.verdict, Verdict::unknown);
+}
+
+TEST(Run, TakesTheMachinesWordForUserCodes) {
+  BoxMachine box("[mcodes]\nM110 = { kind = \"ignore\" }\n");
+  const RunResult r = run_program("G21 G90\nM110\nG0 X10\nM2\n", box.machine(), {}, box.sources());
+  EXPECT_TRUE(r.findings.empty());
+  EXPECT_EQ(r.verdict, Verdict::pass);
+}
+
+TEST(Run, FailsForAToolThatIsNotInTheTable) {
+  BoxMachine box;
+  const RunResult r = run_program("G21 G90\nT7 M6\nM2\n", box.machine(), {}, box.sources());
+  EXPECT_EQ(r.verdict, Verdict::fail);
+}
+
+TEST(Run, IsUnknownWhenSimulatedTimeRunsOut) {
+  BoxMachine box;
+  const RunResult r =
+      run_program("G21 G90\nG1 X10 F1\nG1 X20\nM2\n", box.machine(), {}, box.sources(), {}, 60);
+  EXPECT_EQ(r.verdict, Verdict::unknown);
+  EXPECT_NE(r.summary.unchecked.at(0).find("simulated time"), std::string::npos);
+}
+
+TEST(Judge, NeverPassesWhatWasNotChecked) {
+  const Diagnostics clean;
+  EXPECT_EQ(judge({}, {}, clean, Severity::error), Verdict::pass);
+  Summary open;
+  open.unchecked = {"something"};
+  EXPECT_EQ(judge({}, open, clean, Severity::error), Verdict::unknown);
+  Summary many;
+  many.findings_dropped = 1;
+  EXPECT_EQ(judge({}, many, clean, Severity::error), Verdict::unknown);
+
+  Finding warning;
+  warning.kind = Kind::near_miss;
+  warning.severity = Severity::warning;
+  EXPECT_EQ(judge({warning}, {}, clean, Severity::error), Verdict::pass);
+  EXPECT_EQ(judge({warning}, {}, clean, Severity::warning), Verdict::fail);
+  warning.unresolved = true;
+  EXPECT_EQ(judge({warning}, {}, clean, Severity::error), Verdict::unknown);
+
+  Diagnostics refused;
+  refused.error("arc_error", {}, "…");
+  EXPECT_EQ(judge({}, {}, refused, Severity::error), Verdict::fail);
+  EXPECT_EQ(judge({}, {}, refused, std::nullopt), Verdict::unknown);
+}
+
+TEST(Findings, AreSortedNumberedAndTiedIntoEpisodes) {
+  Findings findings(3);
+  const auto add = [&](Kind kind, double t0, double t1) {
+    Finding f;
+    f.kind = kind;
+    f.t_first = t0;
+    f.t_end = t1;
+    findings.add(f);
+  };
+  add(Kind::near_miss, 5, 6);
+  add(Kind::collision, 2, 3);
+  add(Kind::collision, 1, 2);
+  add(Kind::collision, 9, 9);
+  EXPECT_EQ(findings.dropped(), 1u);
+  const auto list = findings.finish();
+  ASSERT_EQ(list.size(), 3u);
+  EXPECT_EQ(list[0].t_first, 1);
+  EXPECT_EQ(list[0].id, 1);
+  EXPECT_EQ(list[0].episode, list[1].episode);
+  EXPECT_NE(list[1].episode, list[2].episode);
+}
+
+TEST(Kinds, EachHasANameASeverityAndALongText) {
+  for (int i = 0; i <= static_cast<int>(Kind::limit_reached); ++i) {
+    const std::string name(to_string(static_cast<Kind>(i)));
+    bool found = false;
+    for (const KindText& row : finding_kinds()) found = found || name == row.kind;
+    EXPECT_TRUE(found) << name;
+  }
+}
+
+}  // namespace
+}  // namespace aircut::sim
