@@ -65,7 +65,8 @@ class Disk {
     if (!full) return unexpected(full.error());
     auto& slot = meshes_[{full->string(), options.unit_mm, options.y_up}];
     if (slot) return slot;
-    auto mesh = read_mesh(full->string(), options);
+    // Named as the user wrote it, so that messages don't depend on where the package is.
+    auto mesh = read_mesh((fs::path(folder_) / path).string(), options);
     if (!mesh) return unexpected(mesh.error());
     slot = std::make_shared<const TriangleMesh>(std::move(*mesh));
     return slot;

@@ -1,0 +1,65 @@
+// One machine or more of every kinematics type, with a box of poses that it reaches. The contract
+// tests loop over them; a row of the kinematics table without a sample fails.
+#pragma once
+
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "machine/machine.h"
+#include "machine/random.h"
+
+namespace aircut::machine {
+
+struct Sample {
+  std::string name;
+  std::shared_ptr<const Kinematics> kinematics;
+  AxisValues low, high;  ///< tip poses, all reachable; mm and rad
+};
+
+inline AxisValues axis_values(double x, double y, double z, double a = 0, double b = 0,
+                              double c = 0) {
+  AxisValues v;
+  v.value = {x, y, z, a, b, c, 0, 0, 0};
+  return v;
+}
+
+inline std::vector<Sample> samples() {
+  constexpr double pi = std::numbers::pi;
+  OxGlide crossed;
+  OxGlide extended;
+  extended.form = OxGlide::Form::extended;
+  OxGlide shifted;
+  shifted.offset = Vec3(3, -4, -60);
+  return {
+      {"identity XYZ", make_identity({Axis::x, Axis::y, Axis::z}), axis_values(-300, -200, -400),
+       axis_values(300, 200, 0)},
+      {"identity XZ with offset", make_identity({Axis::x, Axis::z}, Vec3(10, 20, 30)),
+       axis_values(-300, 20, -400), axis_values(300, 20, 0)},
+      {"identity ZYXCBA", make_identity({Axis::z, Axis::y, Axis::x, Axis::c, Axis::b, Axis::a}),
+       axis_values(-300, -200, -400, -pi, -pi, -7), axis_values(300, 200, 0, pi, pi, 7)},
+      {"ox-glide crossed", make_ox_glide(crossed), axis_values(160, -150, -357.5),
+       axis_values(349, 150, -200)},
+      {"ox-glide extended", make_ox_glide(extended), axis_values(150, -150, -357.5),
+       axis_values(349, 150, -290)},
+      {"ox-glide with offset", make_ox_glide(shifted), axis_values(163, -150, -417),
+       axis_values(349, 150, -260)},
+  };
+}
+
+inline AxisValues random_tip(const Sample& sample, Random& random) {
+  AxisValues tip;
+  for (const Axis axis : all_axes) tip[axis] = random.between(sample.low[axis], sample.high[axis]);
+  return tip;
+}
+
+/// A tool length along Z; the target's tip stays reachable when it is moved down by the length.
+inline Target with_tool(AxisValues tip, double length) {
+  Target target;
+  target.tool_offset[Axis::z] = length;
+  tip[Axis::z] -= length;
+  target.tip = tip;
+  return target;
+}
+
+}  // namespace aircut::machine
