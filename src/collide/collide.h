@@ -1,6 +1,5 @@
 // collide: proof that two bodies stay apart over an interval of time, or the first contact.
-// Distances come from FCL (OBBRSS trees in double), which stays inside this library; the proof over
-// time is ours (docs/collide.md):
+// Distances come from box trees over the triangles; docs/collide.md says how and what is proven:
 //
 //   d(t) a lower bound of the distance at t, μ(t, Δ) a bound of the relative motion within Δ of t:
 //   d(t) > μ(t, Δ) + margin   ⇒   clear over [t − Δ, t + Δ]
@@ -19,7 +18,7 @@
 
 namespace aircut::collide {
 
-/// A mesh prepared for queries: OBBRSS tree, shells for the containment test. Immutable,
+/// A mesh prepared for queries: box tree, shells for the containment test. Immutable,
 /// thread-safe, shared between bodies with the same mesh.
 class CollisionMesh {
  public:
@@ -98,6 +97,8 @@ struct ProofOptions {
   double margin = 0;          ///< near-miss distance, mm; 0 = only contact matters
   double resolution = 0.005;  ///< ε_r, mm
   double touch = 0.001;       ///< ε_c, contact tolerance, mm
+  /// Wanted width of a near miss's interval of distance, mm; 0 = the resolution.
+  double near_width = 0;
 };
 
 struct ProofCost {
