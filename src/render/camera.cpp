@@ -39,7 +39,7 @@ Mat3 camera_axes(const Vec3& back, const Vec3& up) {
 // the view (slopes tx, ty) each touch the box. For the right plane x + z·tx ≤ ex + ez·tx for all
 // points, for the left one -x + z·tx ≤ -ex + ez·tx; the sum gives ez, the difference ex.
 Camera fitted(const NamedView& name, const Box3& fit, double aspect) {
-  constexpr double margin = 0.84;  // of the half picture; the caption lies at the top
+  constexpr double margin = 0.87;  // of the half picture; the caption lies at the top
   Camera out;
   out.field_of_view = 0.42;  // a long lens: verticals stay nearly upright
   const double ty = std::tan(out.field_of_view / 2) * margin;

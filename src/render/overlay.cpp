@@ -93,28 +93,64 @@ void draw_triad(Image& image, const View& view, const Fonts& fonts, const Layout
 
 std::string length_text(double mm) { return fmt::format("{} mm", shortest(mm)); }
 
-// A ruler in black and white whose length is right at the camera's target.
+// The strip along the lower edge: a light ground for small print, at any picture's bottom.
+constexpr double strip_height = 40, strip_bottom = 14, strip_inset = 12;
+
+double strip_base(const Image& image, const Layout& layout) {
+  return image.height - layout.px(strip_bottom + 13);  // base line of its text
+}
+
+void draw_strip(Image& image, double x, double width, const Layout& layout) {
+  fill_round_rect(
+      image,
+      {x, image.height - layout.px(strip_bottom + strip_height), width, layout.px(strip_height)},
+      layout.px(6), with_alpha(white, 0.62));
+}
+
+int small_text(const Layout& layout) {
+  return std::max(7, static_cast<int>(std::lround(layout.text - layout.px(2))));
+}
+
+// A ruler in black and white whose length is right at the camera's target, and the floor's grid.
 void draw_scale(Image& image, const Stage& stage, const Fonts& fonts, const Layout& layout) {
   const double mm = round_down_125(stage.view.mm_per_pixel * layout.px(190));
   const double length = mm / stage.view.mm_per_pixel;
-  const double right = image.width - layout.px(24), y = image.height - layout.px(26);
-  const double height = layout.px(5);
+  const double edge = layout.px(16), inset = layout.px(strip_inset);
+  const double right = image.width - edge - inset, base = strip_base(image, layout);
+  const int small = small_text(layout);
+  const std::string grid = stage.floor
+                               ? fmt::format("floor grid {} / {}", shortest(stage.floor->step),
+                                             length_text(stage.floor->step * 5))
+                               : "";
+  const double grid_width = grid.empty() ? 0 : fonts.width(grid, Face::sans, small) + inset;
+  const double left = right - length - grid_width;
+  if (left - inset < 0) return;  // a picture too narrow for a ruler
+  draw_strip(image, left - inset, right - left + 2 * inset, layout);
+  const double height = std::max(3.0, std::round(layout.px(5))), y = std::round(base - height + 3);
   fill_round_rect(image, {right - length - 1, y - 1, length + 2, height + 2}, 1, dark);
   for (int i = 0; i < 4; i += 2)
     fill_round_rect(image, {right - length * (4 - i) / 4.0, y, length / 4, height}, 0, white);
   const std::string text = length_text(mm);
-  const double width = fonts.width(text, Face::sans, layout.text);
-  draw_rimmed(image, fonts, right - length / 2 - width / 2, y - layout.px(6), text, Face::sans,
-              layout.text, dark);
-  if (!stage.floor) return;
-  const int small = std::max(7, layout.text - static_cast<int>(std::lround(layout.px(3))));
-  const std::string grid = fmt::format("floor grid {} / {}", shortest(stage.floor->step),
-                                       length_text(stage.floor->step * 5));
-  const double grid_width = fonts.width(grid, Face::sans, small);
-  draw_rimmed(image, fonts, right - length - layout.px(20) - grid_width, y + height, grid,
-              Face::sans, small, soft);
+  fonts.draw(image, right - length / 2 - fonts.width(text, Face::sans, small) / 2, y - layout.px(5),
+             text, Face::sans, small, dark);
+  if (!grid.empty()) fonts.draw(image, left, base, grid, Face::sans, small, soft);
 }
 
+void draw_sample(Image& image, LineKind kind, double x, double y, double width,
+                 const Layout& layout) {
+  const auto c = path_colour(kind);
+  const auto byte = [](float v) { return static_cast<unsigned char>(std::lround(v * 255)); };
+  const Ink ink{byte(c[0]), byte(c[1]), byte(c[2]), 1};
+  const auto stroke = [&](double from, double to) {
+    draw_line(image, Vec2(x + from * width, y), Vec2(x + to * width, y), layout.px(2.2), ink);
+  };
+  if (kind != LineKind::rapid) return stroke(0, 1);
+  stroke(0, 0.22);
+  stroke(0.42, 0.62);
+  stroke(0.82, 1);
+}
+
+// What the colours of the lines mean, for those that occur.
 void draw_legend(Image& image, const Scene& scene, const Fonts& fonts, const Layout& layout) {
   struct Row {
     LineKind kind;
@@ -124,32 +160,25 @@ void draw_legend(Image& image, const Scene& scene, const Fonts& fonts, const Lay
                                         {LineKind::feed, "feed"},
                                         {LineKind::arc, "arc"},
                                         {LineKind::done, "done"}}};
-  const int small = std::max(7, layout.text - static_cast<int>(std::lround(layout.px(2))));
-  double x = layout.px(140);
-  const double y = image.height - layout.px(26);
-  for (const Row& row : rows) {
-    const bool used = std::any_of(
-        scene.lines.begin(), scene.lines.end(),
-        [&](const DrawLine& line) { return line.kind == row.kind && line.points.size() > 1; });
-    if (!used) continue;
-    const auto c = path_colour(row.kind);
-    const auto byte = [](float v) { return static_cast<unsigned char>(std::lround(v * 255)); };
-    const Ink ink{byte(c[0]), byte(c[1]), byte(c[2]), 1};
-    const double middle = y + layout.px(1), w = layout.px(26);
-    const auto stroke = [&](double from, double to, double width, Ink with) {
-      draw_line(image, Vec2(x + from * w, middle), Vec2(x + to * w, middle), width, with);
-    };
-    stroke(0, 1, layout.px(5), with_alpha(white, 0.6));
-    if (row.kind == LineKind::rapid) {
-      stroke(0, 0.22, layout.px(2.2), ink);
-      stroke(0.42, 0.62, layout.px(2.2), ink);
-      stroke(0.82, 1, layout.px(2.2), ink);
-    } else {
-      stroke(0, 1, layout.px(2.2), ink);
+  const int small = small_text(layout);
+  const double sample = layout.px(26), gap = layout.px(7), space = layout.px(16);
+  std::vector<Row> used;
+  double width = -space;
+  for (const Row& row : rows)
+    if (std::any_of(scene.lines.begin(), scene.lines.end(), [&](const DrawLine& line) {
+          return line.kind == row.kind && line.points.size() > 1;
+        })) {
+      used.push_back(row);
+      width += sample + gap + fonts.width(row.text, Face::sans, small) + space;
     }
-    x += w + layout.px(8);
-    draw_rimmed(image, fonts, x, y + layout.px(5), row.text, Face::sans, small, dark);
-    x += fonts.width(row.text, Face::sans, small) + layout.px(18);
+  if (used.empty()) return;
+  const double inset = layout.px(strip_inset), base = strip_base(image, layout);
+  double x = layout.px(scene.triad ? 146 : 16) + inset;
+  draw_strip(image, x - inset, width + 2 * inset, layout);
+  for (const Row& row : used) {
+    draw_sample(image, row.kind, x, base - small * 0.36, sample, layout);
+    x += sample + gap;
+    x += fonts.draw(image, x, base, row.text, Face::sans, small, dark) + space;
   }
 }
 

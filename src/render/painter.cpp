@@ -5,8 +5,7 @@
 //   backdrop, floor, solid bodies ◄────┘ ─► edges ─► paths ─► translucent bodies ─► x-ray
 //
 // The lighting pass is done in half resolution because occlusion and penumbras are smooth; the full
-// picture picks the neighbours that lie at its own depth. Stencil values: 1 a body in alarm is
-// visible here, 2 it is behind something and shown through it.
+// picture picks the neighbours that lie at its own depth.
 #include "render/painter.h"
 
 #include <algorithm>
@@ -19,6 +18,8 @@ namespace {
 
 constexpr double edge_lift = 5e-4;  // of the distance to the eye
 constexpr double path_lift = 1.2e-3;
+// Stencil values: a body in alarm is seen here, or it is behind something and shown through it.
+constexpr int seen = 2, covered = 1;
 
 Vec3 to_linear(const Vec3& display) { return display.array().pow(2.2).matrix(); }
 
@@ -40,9 +41,11 @@ Material material_of(const machine::Color& color) {
   const double saturation = c.maxCoeff() > 0 ? (c.maxCoeff() - c.minCoeff()) / c.maxCoeff() : 0.0;
   Material out;
   out.base = to_linear(c);
-  out.metal = std::clamp(1.15 - 4.5 * saturation, 0.0, 1.0) *
-              std::clamp((c.maxCoeff() - 0.25) / 0.2, 0.0, 1.0);
-  out.roughness = 0.42 - 0.06 * out.metal;
+  // Nearly white and nearly black are paint too.
+  out.metal = std::clamp(1.3 - 6 * saturation, 0.0, 1.0) *
+              std::clamp((c.maxCoeff() - 0.30) / 0.2, 0.0, 1.0) *
+              std::clamp((0.875 - c.maxCoeff()) / 0.05, 0.0, 1.0);
+  out.roughness = 0.46 - 0.12 * out.metal;
   return out;
 }
 
@@ -238,7 +241,7 @@ void Painter::draw_solids(const Frame& frame) const {
   gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   for (const StageItem& item : frame.stage.items) {
     if (item.body->translucent || !in_view(item.box, frame.to_clip)) continue;
-    gl.StencilFunc(GL_ALWAYS, item.body->highlight ? 1 : 0, 0xFF);
+    gl.StencilFunc(GL_ALWAYS, item.body->highlight ? seen : 0, 0xFF);
     set_material(item, frame);
     cull(*item.mesh);
     item.mesh->draw_triangles();
@@ -301,11 +304,11 @@ void Painter::draw_item_edges(const Frame& frame, const StageItem& item) const {
   const bool alarm = item.body->highlight;
   const Vec3 colour = alarm ? alarm_colour(frame.alarm_number[static_cast<std::size_t>(item.index)])
                             : display_colour(item.body->color);
-  const double opacity = item.body->translucent ? 0.45 : 0.78;
+  const double opacity = item.body->translucent ? 0.45 : 0.70;
   const std::array<float, 4> ink = edge_ink(colour, opacity);
   const Program& line = programs_->line;
   line.set("model_view", Eigen::Matrix4d(frame.view().view * item.model));
-  line.set("fade_below", 2.2 * frame.line_scale);
+  line.set("fade_below", 3.5 * frame.line_scale);
   gl_->VertexAttrib4f(2, ink[0], ink[1], ink[2], ink[3]);
   item.mesh->draw_creases();
   line.set("fade_below", 0.0);
@@ -313,7 +316,7 @@ void Painter::draw_item_edges(const Frame& frame, const StageItem& item) const {
 }
 
 void Painter::draw_edges(const Frame& frame) const {
-  set_line_program(frame, 1.05, edge_lift, 1);
+  set_line_program(frame, 0.95, edge_lift, 1);
   for (const StageItem& item : frame.stage.items)
     if (!item.body->translucent && in_view(item.box, frame.to_clip)) draw_item_edges(frame, item);
   gl_->DepthMask(GL_TRUE);
@@ -371,7 +374,7 @@ void Painter::draw_xray(const Frame& frame) const {
   gl.DepthMask(GL_FALSE);
   gl.DepthFunc(GL_GREATER);
   gl.StencilFunc(GL_EQUAL, 0, 0xFF);
-  gl.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);
+  gl.StencilOp(GL_KEEP, GL_KEEP, GL_INCR);  // 0 becomes `covered`, once
   gl.Disable(GL_CULL_FACE);
   const auto alarm = [&](const StageItem& item) {
     return alarm_colour(frame.alarm_number[static_cast<std::size_t>(item.index)]);
@@ -382,15 +385,16 @@ void Painter::draw_xray(const Frame& frame) const {
     programs_->xray.set("base", alarm(item));
     item.mesh->draw_triangles();
   }
-  // Now 1 where the body itself is visible or hidden; lines only where something covers them.
   set_line_program(frame, 1.4, 0, 1);
-  gl.Disable(GL_STENCIL_TEST);
+  gl.StencilFunc(GL_EQUAL, covered, 0xFF);
+  gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   for (const StageItem& item : frame.stage.items) {
     if (!item.body->highlight || item.body->translucent) continue;
     programs_->line.set("model_view", Eigen::Matrix4d(frame.view().view * item.model));
     const Eigen::Vector3f c = (alarm(item) * 0.8).cast<float>();
     LineBatch(gl, outline(item, frame.view(), {c.x(), c.y(), c.z(), 0.75f}, true)).draw();
   }
+  gl.Disable(GL_STENCIL_TEST);
   gl.DepthFunc(GL_LEQUAL);
   gl.DepthMask(GL_TRUE);
   gl.Disable(GL_BLEND);

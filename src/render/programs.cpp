@@ -12,23 +12,25 @@ Expected<Programs> link_programs(const Gl& gl) {
     Program Programs::*program;
     const char* vertex;
     const char* fragment;
+    const char* shared = "";  // functions that the fragment shader calls
   };
   const std::array<Row, 11> rows = {{
-      {&Programs::body, s::body_vertex, s::body_fragment},
+      {&Programs::body, s::body_vertex, s::body_fragment, s::gather_light},
       {&Programs::geometry, s::body_vertex, s::geometry_fragment},
       {&Programs::depth, s::depth_vertex, s::depth_fragment},
       {&Programs::id, s::depth_vertex, s::id_fragment},
-      {&Programs::light, s::screen_vertex, s::light_fragment},
-      {&Programs::smooth, s::screen_vertex, s::smooth_fragment},
+      {&Programs::light, s::screen_vertex, s::light_fragment, s::half_position},
+      {&Programs::smooth, s::screen_vertex, s::smooth_fragment, s::half_position},
       {&Programs::background, s::screen_vertex, s::background_fragment},
-      {&Programs::floor, s::floor_vertex, s::floor_fragment},
+      {&Programs::floor, s::floor_vertex, s::floor_fragment, s::gather_light},
       {&Programs::floor_geometry, s::floor_vertex, s::floor_geometry_fragment},
       {&Programs::xray, s::body_vertex, s::xray_fragment},
       {&Programs::line, s::line_vertex, s::line_fragment},
   }};
   Programs out;
   for (const Row& row : rows) {
-    auto program = Program::link(gl, row.vertex, row.fragment);
+    auto program = Program::link(gl, std::string(s::version) + row.vertex,
+                                 std::string(s::version) + row.shared + row.fragment);
     if (!program) return unexpected(program.error());
     out.*row.program = std::move(*program);
   }

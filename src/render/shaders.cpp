@@ -2,8 +2,45 @@
 
 namespace aircut::render::shaders {
 
-const char* const body_vertex = R"(#version 330 core
-layout(location = 0) in vec3 position;
+const char* const version = "#version 330 core\n";
+
+// Ambient light (x) and key light (y) of this pixel from the half-resolution picture: of the four
+// neighbours, those that lie at its own depth.
+const char* const gather_light = R"(
+uniform sampler2D light;
+vec2 gathered(float view_depth) {
+  ivec2 size = textureSize(light, 0);
+  vec2 p = gl_FragCoord.xy * 0.5 - 0.5;
+  ivec2 i = ivec2(floor(p));
+  vec2 f = p - vec2(i);
+  float tolerance = 0.002 * view_depth + 3.0 * fwidth(view_depth);
+  vec2 sum = vec2(0.0);
+  float weight = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    ivec2 o = ivec2(k & 1, k >> 1);
+    vec3 s = texelFetch(light, clamp(i + o, ivec2(0), size - 1), 0).xyz;
+    float bilinear = (o.x == 1 ? f.x : 1.0 - f.x) * (o.y == 1 ? f.y : 1.0 - f.y) + 1e-3;
+    float w = bilinear * max(1.0 - abs(s.z - view_depth) / tolerance, 1e-4);
+    sum += w * s.xy;
+    weight += w;
+  }
+  return sum / weight;
+}
+)";
+
+// Where a pixel of the half-resolution picture lies, in the camera's frame.
+const char* const half_position = R"(
+uniform sampler2D geometry;
+uniform vec4 unproject;      // scale and offset from clip to camera coordinates
+uniform float parallel;      // 1: orthographic
+vec3 position_at(ivec2 pixel, float depth) {
+  vec2 ndc = (vec2(pixel) + 0.5) / vec2(textureSize(geometry, 0)) * 2.0 - 1.0;
+  vec2 p = (ndc + unproject.zw) * unproject.xy;
+  return vec3(p * (parallel > 0.5 ? 1.0 : depth), -depth);
+}
+)";
+
+const char* const body_vertex = R"(layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 uniform mat4 model;          // body to world
 uniform mat4 view;           // world to camera
@@ -24,8 +61,7 @@ void main() {
 // Shading model: Cook-Torrance with the GGX distribution (Walter et al. 2007), Schlick's Fresnel
 // term, Lambert for what is not metal; three lamps (key with shadow, fill, rim) and an analytic
 // studio of sky, floor and soft boxes for reflections. Karis' fit gives the environment's Fresnel.
-const char* const body_fragment = R"(#version 330 core
-in vec3 world_position;
+const char* const body_fragment = R"(in vec3 world_position;
 in vec3 world_normal;
 in float view_depth;
 uniform vec3 eye;             // world
@@ -38,29 +74,8 @@ uniform float opacity;
 uniform vec3 key, fill, rim;  // directions to the lamps
 uniform vec3 right;           // of the camera, horizontal
 uniform vec3 ahead;           // horizontal direction into the picture
-uniform sampler2D light;      // half resolution: ambient, key light, depth
 uniform float use_light;
 out vec4 color;
-
-vec2 gathered() {
-  if (use_light < 0.5) return vec2(1.0);
-  ivec2 size = textureSize(light, 0);
-  vec2 p = gl_FragCoord.xy * 0.5 - 0.5;
-  ivec2 i = ivec2(floor(p));
-  vec2 f = p - vec2(i);
-  float tolerance = 0.002 * view_depth + 3.0 * fwidth(view_depth);
-  vec2 sum = vec2(0.0);
-  float weight = 0.0;
-  for (int k = 0; k < 4; ++k) {
-    ivec2 o = ivec2(k & 1, k >> 1);
-    vec3 s = texelFetch(light, clamp(i + o, ivec2(0), size - 1), 0).xyz;
-    float bilinear = (o.x == 1 ? f.x : 1.0 - f.x) * (o.y == 1 ? f.y : 1.0 - f.y) + 1e-3;
-    float w = bilinear * max(1.0 - abs(s.z - view_depth) / tolerance, 1e-4);
-    sum += w * s.xy;
-    weight += w;
-  }
-  return sum / weight;
-}
 
 float ggx(float nh, float a) {
   float a2 = a * a;
@@ -85,7 +100,7 @@ vec3 lamp(vec3 n, vec3 v, vec3 l, vec3 diffuse, vec3 f0, float a) {
 // lamp at each side; `soft` blurs the borders for rough metal.
 vec3 studio(vec3 r, float soft) {
   float h = r.z;
-  vec3 c = mix(vec3(0.20, 0.20, 0.21), vec3(0.62, 0.65, 0.69), smoothstep(-0.25 - soft, 0.12 + soft, h));
+  vec3 c = mix(vec3(0.16, 0.16, 0.17), vec3(0.62, 0.65, 0.69), smoothstep(-0.25 - soft, 0.12 + soft, h));
   c = mix(c, vec3(0.86, 0.90, 0.96), smoothstep(0.15, 0.95, h));
   float side = dot(r, right);
   float depth = dot(r, ahead);
@@ -99,15 +114,16 @@ vec3 studio(vec3 r, float soft) {
 void main() {
   vec3 v = parallel > 0.5 ? back : normalize(eye - world_position);
   vec3 n = normalize(gl_FrontFacing ? world_normal : -world_normal);
-  vec2 g = gathered();
+  vec2 g = use_light > 0.5 ? gathered(view_depth) : vec2(1.0);
   vec3 diffuse = base * (1.0 - metal);
   vec3 f0 = mix(vec3(0.045), base, metal);
   float a = roughness * roughness;
   // Brushed metal scatters a good part of its light widely: a share of it is treated as diffuse.
-  diffuse += base * metal * 0.42;
-  f0 *= 1.0 - 0.25 * metal;
+  diffuse += base * metal * 0.34;
+  f0 *= 1.0 - 0.12 * metal;
 
-  vec3 c = lamp(n, v, key, diffuse, f0, a) * vec3(2.55, 2.49, 2.38) * g.y;
+  // A fifth of the key light comes round every corner, so that shapes in shadow keep their form.
+  vec3 c = lamp(n, v, key, diffuse, f0, a) * vec3(2.55, 2.49, 2.38) * mix(0.22, 1.0, g.y);
   c += lamp(n, v, fill, diffuse, f0, a) * vec3(0.62, 0.68, 0.78);
   c += lamp(n, v, rim, diffuse, f0, a) * vec3(0.80, 0.84, 0.90) * mix(1.0, g.x, 0.5);
 
@@ -120,7 +136,7 @@ void main() {
   float shade = g.x * mix(0.72, 1.0, g.y);
   c += studio(reflect(-v, n), roughness * 0.75) * (f0 * ab.x + ab.y) * shade;
 
-  c *= 1.06;
+  c *= 1.22;
   c = c * (1.0 + c / 7.0) / (1.0 + c);
   c = pow(c, vec3(1.0 / 2.2));
   c = clamp((c - 0.5) * 1.10 + 0.525, 0.0, 1.0);
@@ -129,8 +145,7 @@ void main() {
 }
 )";
 
-const char* const geometry_fragment = R"(#version 330 core
-in vec3 world_position;
+const char* const geometry_fragment = R"(in vec3 world_position;
 in vec3 world_normal;
 in float view_depth;
 uniform mat4 view;
@@ -141,24 +156,20 @@ void main() {
 }
 )";
 
-const char* const depth_vertex = R"(#version 330 core
-layout(location = 0) in vec3 position;
+const char* const depth_vertex = R"(layout(location = 0) in vec3 position;
 uniform mat4 transform;
 void main() { gl_Position = transform * vec4(position, 1.0); }
 )";
 
-const char* const depth_fragment = R"(#version 330 core
-void main() {}
+const char* const depth_fragment = R"(void main() {}
 )";
 
-const char* const id_fragment = R"(#version 330 core
-uniform vec4 id;
+const char* const id_fragment = R"(uniform vec4 id;
 out vec4 color;
 void main() { color = id; }
 )";
 
-const char* const screen_vertex = R"(#version 330 core
-void main() {
+const char* const screen_vertex = R"(void main() {
   vec2 p = vec2(float((gl_VertexID & 1) * 4) - 1.0, float((gl_VertexID >> 1) * 4) - 1.0);
   gl_Position = vec4(p, 0.0, 1.0);
 }
@@ -169,11 +180,7 @@ void main() {
 // Key light by percentage-closer soft shadows (Fernando 2005): the mean distance of what blocks the
 // lamp gives the width of the penumbra. Both use a rotation that repeats every 4 x 4 pixels; the
 // smoothing pass averages over just that.
-const char* const light_fragment = R"(#version 330 core
-uniform sampler2D geometry;
-uniform sampler2D shadow_map;
-uniform vec4 unproject;      // scale and offset from clip to camera coordinates
-uniform float parallel;
+const char* const light_fragment = R"(uniform sampler2D shadow_map;
 uniform mat4 camera_to_world;
 uniform mat4 to_shadow;      // world to shadow map, 0..1
 uniform vec3 key;            // world
@@ -184,11 +191,6 @@ uniform float shadow_depth;  // mm through the map
 uniform float lamp_slope;    // penumbra width per distance of the blocker
 out vec4 light;
 
-vec3 position_at(ivec2 pixel, float depth) {
-  vec2 ndc = (vec2(pixel) + 0.5) / vec2(textureSize(geometry, 0)) * 2.0 - 1.0;
-  vec2 p = (ndc + unproject.zw) * unproject.xy;
-  return vec3(p * (parallel > 0.5 ? 1.0 : depth), -depth);
-}
 
 float occlusion(vec3 p, vec3 n, ivec2 pixel, float depth, float turn) {
   ivec2 size = textureSize(geometry, 0);
@@ -252,19 +254,10 @@ void main() {
 }
 )";
 
-const char* const smooth_fragment = R"(#version 330 core
-uniform sampler2D geometry;
-uniform sampler2D light;
-uniform vec4 unproject;
-uniform float parallel;
+const char* const smooth_fragment = R"(uniform sampler2D light;
 uniform ivec2 along;
 uniform float tolerance;     // mm off the tangent plane, at depth 1 or everywhere
 out vec4 smoothed;
-vec3 position_at(ivec2 pixel, float depth) {
-  vec2 ndc = (vec2(pixel) + 0.5) / vec2(textureSize(geometry, 0)) * 2.0 - 1.0;
-  vec2 p = (ndc + unproject.zw) * unproject.xy;
-  return vec3(p * (parallel > 0.5 ? 1.0 : depth), -depth);
-}
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   ivec2 last = textureSize(geometry, 0) - 1;
@@ -286,8 +279,8 @@ void main() {
 }
 )";
 
-const char* const background_fragment = R"(#version 330 core
-uniform vec4 frame;          // pixel to 0..1 of the whole picture: scale, offset
+const char* const background_fragment =
+    R"(uniform vec4 frame;          // pixel to 0..1 of the whole picture: scale, offset
 out vec4 color;
 vec3 backdrop(vec2 p) {
   vec3 c = mix(vec3(0.905, 0.915, 0.925), vec3(0.795, 0.825, 0.860), smoothstep(0.25, 1.05, p.y));
@@ -297,8 +290,7 @@ vec3 backdrop(vec2 p) {
 void main() { color = vec4(backdrop(gl_FragCoord.xy * frame.xy + frame.zw), 1.0); }
 )";
 
-const char* const floor_vertex = R"(#version 330 core
-uniform mat4 view;
+const char* const floor_vertex = R"(uniform mat4 view;
 uniform mat4 projection;
 uniform vec4 square;         // centre, height, half size; world
 out vec3 world_position;
@@ -314,8 +306,7 @@ void main() {
 }
 )";
 
-const char* const floor_geometry_fragment = R"(#version 330 core
-in vec3 world_position;
+const char* const floor_geometry_fragment = R"(in vec3 world_position;
 in vec3 world_normal;
 in float view_depth;
 uniform mat4 view;
@@ -323,34 +314,14 @@ out vec4 geometry;
 void main() { geometry = vec4(mat3(view) * vec3(0.0, 0.0, 1.0), view_depth); }
 )";
 
-const char* const floor_fragment = R"(#version 330 core
-in vec3 world_position;
+const char* const floor_fragment = R"(in vec3 world_position;
 in vec3 world_normal;
 in float view_depth;
 uniform vec4 square;
 uniform vec3 grid;           // origin of the grid in the render frame, xy; spacing of fine lines
 uniform float fade;          // distance from the centre at which the floor is gone
-uniform sampler2D light;
 uniform float pixel;         // line width in pixels
 out vec4 color;
-vec2 gathered() {
-  ivec2 size = textureSize(light, 0);
-  vec2 p = gl_FragCoord.xy * 0.5 - 0.5;
-  ivec2 i = ivec2(floor(p));
-  vec2 f = p - vec2(i);
-  float tolerance = 0.002 * view_depth + 3.0 * fwidth(view_depth);
-  vec2 sum = vec2(0.0);
-  float weight = 0.0;
-  for (int k = 0; k < 4; ++k) {
-    ivec2 o = ivec2(k & 1, k >> 1);
-    vec3 s = texelFetch(light, clamp(i + o, ivec2(0), size - 1), 0).xyz;
-    float bilinear = (o.x == 1 ? f.x : 1.0 - f.x) * (o.y == 1 ? f.y : 1.0 - f.y) + 1e-3;
-    float w = bilinear * max(1.0 - abs(s.z - view_depth) / tolerance, 1e-4);
-    sum += w * s.xy;
-    weight += w;
-  }
-  return sum / weight;
-}
 // Coverage of grid lines `step` apart; lines closer than a few pixels dissolve into their mean.
 float lines(vec2 p, float step, float width) {
   vec2 q = p / step;
@@ -360,21 +331,20 @@ float lines(vec2 p, float step, float width) {
   return max(c.x, c.y);
 }
 void main() {
-  vec2 g = gathered();
+  vec2 g = gathered(view_depth);
   float off = length(world_position.xy - square.xy) / fade;
   float near = 1.0 - smoothstep(0.35, 1.0, off);
   vec2 p = world_position.xy - grid.xy;
   float fine = lines(p, grid.z, pixel), coarse = lines(p, grid.z * 5.0, pixel * 1.25);
   float shade = mix(1.0, 0.60 + 0.40 * g.y, near) * mix(1.0, 0.30 + 0.70 * g.x, near);
-  float ink = max(fine * 0.10, coarse * 0.24) * near;
+  float ink = max(fine * 0.07, coarse * 0.17) * near;
   // Only darkens what lies behind: the floor melts into the background.
   float dark = 1.0 - shade * (1.0 - ink);
   color = vec4(vec3(0.10, 0.12, 0.16), dark);
 }
 )";
 
-const char* const xray_fragment = R"(#version 330 core
-in vec3 world_position;
+const char* const xray_fragment = R"(in vec3 world_position;
 in vec3 world_normal;
 in float view_depth;
 uniform vec3 base;           // display colour
@@ -391,8 +361,7 @@ void main() {
 // fragment shader fades its sides. Both ends move towards the eye by a small part of their
 // distance, which leaves them at the same place in the picture but in front of the surface that
 // they lie on.
-const char* const line_vertex = R"(#version 330 core
-layout(location = 0) in vec3 from;
+const char* const line_vertex = R"(layout(location = 0) in vec3 from;
 layout(location = 1) in vec3 to;
 layout(location = 2) in vec4 ink;
 uniform mat4 model_view;
@@ -438,8 +407,7 @@ void main() {
 }
 )";
 
-const char* const line_fragment = R"(#version 330 core
-in vec4 line_ink;
+const char* const line_fragment = R"(in vec4 line_ink;
 in float across;
 in float half_width;
 uniform float opacity;

@@ -3,6 +3,11 @@
 
 namespace aircut::render::shaders {
 
+// First line of every shader, and functions that some share.
+extern const char* const version;
+extern const char* const gather_light;
+extern const char* const half_position;
+
 // Surfaces of bodies, lit.
 extern const char* const body_vertex;
 extern const char* const body_fragment;
