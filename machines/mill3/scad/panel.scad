@@ -1,7 +1,7 @@
-// Operator panel on a swinging arm, right of the work space.
+// Operator panel on a swinging arm, left of the work space.
 include <params.scad>
 
-translate([790, -560, 0]) {
+mirror([1, 0, 0]) translate([790, -560, 0]) {
   // post on the tray's side, arm, tilted box with screen, keys, and emergency stop
   translate([-40, 120, 300]) disc(26, 1160, 3);
   block_at([-78, 90, 320], [-12, 150, 400], 5);
