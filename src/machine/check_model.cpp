@@ -1,10 +1,9 @@
 // What can be said about a machine that was read without error, but may still be a poor model.
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
 
 #include "machine/machine.h"
+#include "machine/mesh_check.h"
 
 namespace aircut::machine {
 
@@ -20,16 +19,11 @@ void check_size(const Body& body, Diagnostics& out) {
                   " mm long; check the unit of its mesh");
 }
 
-void check_shells(const Body& body, Diagnostics& out) {
-  const std::vector<Shell> found = shells(*body.mesh);
-  const auto open =
-      std::count_if(found.begin(), found.end(), [](const Shell& shell) { return !shell.closed; });
-  if (open > 0)
+void check_surface(const Body& body, Diagnostics& out) {
+  if (!without_border(*body.mesh))
     out.warning("mesh_defect", body.span,
-                "the mesh of body '" + body.name + "' is open: " + std::to_string(open) +
-                    " of its " + std::to_string(found.size()) +
-                    (found.size() == 1 ? " shell" : " shells") +
-                    " don't enclose a volume; only contact with its surface is found");
+                "the mesh of body '" + body.name + "' is open: its surface has a border, so only " +
+                    "contact with the surface is found, not what lies inside");
   else if (volume(*body.mesh) <= 0)
     out.warning("mesh_defect", body.span,
                 "the mesh of body '" + body.name + "' is inside out: its triangles face inwards");
@@ -42,7 +36,7 @@ void check_bodies(const Machine& machine, Diagnostics& out) {
       continue;
     }
     check_size(body, out);
-    if (body.collide) check_shells(body, out);
+    if (body.collide) check_surface(body, out);
   }
   for (const Link& link : machine.links()) {
     const auto id = machine.find_link(link.name);
