@@ -36,7 +36,7 @@ PathPoint evaluate_line(const Line& line, double s) {
 
 PathPoint evaluate_arc(const Arc& arc, double s) {
   PathPoint out = evaluate_line(Line{arc.start, arc.end, arc.length}, s);  // ABC and UVW
-  const double w = arc.angle / arc.length;  // dφ/ds
+  const double w = arc.angle / arc.length;                                 // dφ/ds
   const double phi = w * s;
   const double dr = (arc.end_radius - arc.start_radius) / arc.length;
   const double r = arc.start_radius + dr * s;

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "plan/shaper.h"
+#include "plan/merger.h"
 
 namespace aircut::plan {
 namespace {
@@ -20,7 +20,7 @@ class Planner::Impl {
   Impl(const machine::Machine& machine, const machine::JointVector& start, Options options);
 
   Expected<void> push(const canon::Command& command);
-  void flush() { shaper_.stop(); }
+  void flush() { merger_.stop(); }
   std::optional<Segment> take() { return shaper_.take(); }
 
  private:
@@ -39,12 +39,14 @@ class Planner::Impl {
   Options options_;
   std::optional<Diagnostic> broken_;  ///< why no program can be planned
   Shaper shaper_;
+  Merger merger_;
   AxisValues tip_;  ///< at the end of everything pushed
   AxisValues tool_offset_;
   canon::FeedMode feed_mode_ = canon::FeedMode::per_minute;
   canon::SetFeedRate feed_rate_;
   canon::PathMode path_mode_ = canon::PathMode::continuous;
   double path_tolerance_ = 0;
+  double merge_tolerance_ = 0;
   double spindle_speed_ = 0;
   bool css_ = false;
   canon::SpindleTurn spindle_turn_ = canon::SpindleTurn::stop;
@@ -65,7 +67,10 @@ Diagnostic at(const canon::Command& command, std::string kind, std::string messa
 
 Planner::Impl::Impl(const machine::Machine& machine, const machine::JointVector& start,
                     Options options)
-    : machine_(machine), options_(options), shaper_(machine, start, options.period, max_nodes) {
+    : machine_(machine),
+      options_(options),
+      shaper_(machine, start, options.period, max_nodes),
+      merger_(shaper_) {
   if (start.size() != machine.joint_count()) {
     broken_ = make_error("setup_invalid", "the start has " + std::to_string(start.size()) +
                                               " joint values, the machine " +
@@ -110,16 +115,16 @@ Segment Planner::Impl::segment(const canon::Command& command, MotionKind kind) c
 }
 
 Expected<void> Planner::Impl::still(const canon::Command& command) {
-  shaper_.push_still(segment(command, MotionKind::idle));
+  merger_.push_still(segment(command, MotionKind::idle));
   return {};
 }
 
 Expected<void> Planner::Impl::barrier(const canon::Command& command, double seconds,
                                       MotionKind kind) {
-  shaper_.stop();
+  merger_.stop();
   Segment out = segment(command, kind);
   if (seconds > 0) out.profile.knots = {{0, 0, 0, 0, 0}, {seconds, 0, 0, 0, 0}};
-  shaper_.push_still(std::move(out));
+  merger_.push_still(std::move(out));
   return {};
 }
 
@@ -164,7 +169,7 @@ Expected<void> Planner::Impl::move(const canon::Command& command, Path path, Mot
   out.metric = metric_of(path);
   if (out.metric == Metric::none) {
     // Nothing moves: no motion, but the command still reaches the listeners.
-    shaper_.push_still(std::move(out.segment));
+    merger_.push_still(std::move(out.segment));
     return {};
   }
   tip_ = evaluate(path, length(path)).p;
@@ -173,7 +178,8 @@ Expected<void> Planner::Impl::move(const canon::Command& command, Path path, Mot
   out.feed = feed;
   out.mode = path_mode_;
   out.tolerance = path_tolerance_;
-  shaper_.push(std::move(out));
+  out.merge = merge_tolerance_;
+  merger_.push(std::move(out));
   return {};
 }
 
@@ -226,7 +232,7 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
           [&](const canon::WorkRotation&) { return still(command); },
           [&](const canon::G92Offset&) { return still(command); },
           [&](const canon::ToolLengthOffset& c) {
-            shaper_.stop();
+            merger_.stop();
             // The machine stands still; what changes is where the tip is.
             tip_ = tip_ + tool_offset_ - c.offset;
             tool_offset_ = c.offset;
@@ -237,34 +243,37 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
             path_tolerance_ = c.tolerance;
             return still(command);
           },
-          [&](const canon::SetNaiveCam&) { return still(command); },
+          [&](const canon::SetNaiveCam& c) {
+            merge_tolerance_ = c.tolerance;
+            return still(command);
+          },
           [&](const canon::SetSpindleMode& c) {
             if (c.spindle == 0) css_ = c.css_max_rpm > 0;
             return still(command);
           },
           [&](const canon::SetSpindleSpeed& c) {
-            shaper_.stop();
+            merger_.stop();
             if (c.spindle == 0) spindle_speed_ = c.value;
             return barrier(command);
           },
           [&](const canon::TurnSpindle& c) {
-            shaper_.stop();
+            merger_.stop();
             if (c.spindle == 0) spindle_turn_ = c.turn;
             return barrier(command);
           },
           [&](const canon::OrientSpindle& c) {
-            shaper_.stop();
+            merger_.stop();
             if (c.spindle == 0) spindle_turn_ = canon::SpindleTurn::stop;
             return barrier(command);
           },
           [&](const canon::SelectTool&) { return still(command); },
           [&](const canon::ChangeTool& c) {
-            shaper_.stop();
+            merger_.stop();
             tool_ = c.number;
             return barrier(command, machine_.tool_change().seconds, MotionKind::tool_change);
           },
           [&](const canon::SetToolNumber& c) {
-            shaper_.stop();
+            merger_.stop();
             tool_ = c.number;
             return barrier(command);
           },

@@ -1,10 +1,15 @@
 // What happens between two moves.
 //
-// Exact stop (G61.1) and corners in exact path mode (G61): rest. Joints between tangent pieces are
-// passed at speed. "Tangent" always is only nearly so; the joint velocity then jumps by |Δq'| v and
-// shows up in the log as an acceleration |Δq'| v / T over one period T. The speed there is held so
-// low that this stays below `jump_share` of the joint's limit. Corners of more than `pass_angle`
-// would crawl that way: the motion stops there instead.
+//   exact stop (G61.1)       rest
+//   tangent                  passed at speed
+//   corner, exact path (G61) rest
+//   corner, G64              a blend takes the ends of both sides off; rest where none is possible
+//
+// "Tangent" always is only nearly so; the joint velocity then jumps by |Δq'| v and shows up in the
+// log as an acceleration |Δq'| v / T over one period T. The speed there is held so low that this
+// stays below `jump_share` of the joint's limit. Corners of more than `pass_angle` would crawl that
+// way: the motion stops there instead. In G64 already a corner of `blend_angle` is blended, because
+// a tiny blend costs less than the lower speed.
 #include "plan/shaper.h"
 
 #include <algorithm>
@@ -17,7 +22,9 @@ namespace aircut::plan {
 namespace {
 
 constexpr double jump_share = 5e-4;
-constexpr double pass_angle = 1e-3;  // rad
+constexpr double pass_angle = 1e-3;   // rad
+constexpr double blend_angle = 1e-7;  // rad: rounding of coordinates, not a corner
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // One length for nine axes, a radian counted as 100 mm: compares directions only.
 double mixed_norm(const AxisValues& way) {
@@ -54,27 +61,72 @@ Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, doub
       scratch_(std::max(machine.tree().size(), static_cast<std::size_t>(machine.joint_count()) +
                                                    machine.kinematics().passive_names().size())) {}
 
-Shaper::Corner Shaper::corner_of(const Move& left, const Move& right) const {
+// Largest share of an acceleration limit on the blend at `feed` (infinity: at the largest speed
+// that the joints allow). 1 where that can't be told, so that the blend keeps its size.
+double Shaper::demand(const Blend& blend, double feed) const {
+  double worst = 0;
+  machine::JointVector near = joints_;
+  constexpr int samples = 12;
+  for (int k = 0; k <= samples; ++k) {
+    const PathPoint p = evaluate(blend, blend.length * k / samples);
+    const auto joint =
+        joint_point(machine_.kinematics(), {p.p, pending_->segment.tool_offset}, p.d, p.dd, near);
+    if (!joint) return 1;
+    near = joint->q;
+    const double tip = metric_length(Metric::xyz, p.d);
+    const double fastest = 1 / joint->dq.cwiseQuotient(limits_.v).cwiseAbs().maxCoeff();
+    const double speed = std::min(feed / tip, fastest);
+    worst =
+        std::max(worst, speed * speed * joint->ddq.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff());
+  }
+  return worst;
+}
+
+Shaper::Corner Shaper::corner_to(const Move& right) const {
+  const Move& left = *pending_;
   if (left.mode == canon::PathMode::exact_stop || right.mode == canon::PathMode::exact_stop)
-    return Corner::stop;
+    return Rest{};
   const AxisValues in = end_direction(left.segment.path);
   const AxisValues out = start_direction(right.segment.path);
   const double n_in = mixed_norm(in), n_out = mixed_norm(out);
-  if (!(n_in > 0) || !(n_out > 0)) return Corner::stop;
+  if (!(n_in > 0) || !(n_out > 0)) return Rest{};
   const double angle = mixed_norm((1 / n_in) * in - (1 / n_out) * out);
-  return angle <= pass_angle ? Corner::pass : Corner::stop;
+  const bool continuous =
+      left.mode == canon::PathMode::continuous && right.mode == canon::PathMode::continuous;
+  if (angle > blend_angle && continuous && left.metric == Metric::xyz &&
+      right.metric == Metric::xyz) {
+    const double left_length = length(left.segment.path);
+    // A side that starts at rest may give more than half; all of it would leave no room to start.
+    const double left_room = std::min(left_length - begin_, (at_rest_ ? 0.9 : 0.5) * left_length);
+    const double feed = std::min(left.feed, right.feed);
+    const CornerShape shape{left.segment.path, right.segment.path, left_room,
+                            length(right.segment.path) / 2, right.tolerance};
+    if (auto blend = make_blend(shape, [&](const Blend& b) { return demand(b, feed); }))
+      return *blend;
+  }
+  if (angle <= pass_angle) return Pass{};
+  return Rest{};
 }
 
 void Shaper::push(Move move) {
   if (failed_) return;
-  bool stop_before = true;
+  double begin = 0;
+  bool rest = true;
   if (pending_) {
-    stop_before = corner_of(*pending_, move) == Corner::stop;
-    finish_pending();
+    const Corner corner = corner_to(move);
+    rest = std::holds_alternative<Rest>(corner);
+    if (const auto* blend = std::get_if<CornerBlend>(&corner)) {
+      begin = blend->cut;
+      add_blend(*pending_, move, *blend);
+    } else {
+      finish_pending();
+    }
     if (failed_) return;
   }
+  if (rest) at_rest_ = true;
+  begin_ = begin;
+  end_ = length(move.segment.path);
   pending_ = std::move(move);
-  pending_stops_before_ = stop_before;
 }
 
 void Shaper::push_still(Segment segment) {
@@ -88,23 +140,85 @@ void Shaper::push_still(Segment segment) {
 void Shaper::stop() {
   if (failed_) return;
   finish_pending();
+  if (failed_) return;
   chain_.stop();
+  at_rest_ = true;
 }
 
+// The rest of the pending move up to end_, and the segments behind it.
 void Shaper::finish_pending() {
   if (!pending_) return;
   Move move = std::move(*pending_);
   pending_.reset();
-  add(std::move(move), pending_stops_before_);
+  add_range(move, begin_, end_);
   std::vector<Segment> after = std::move(after_);
   after_.clear();
   if (failed_) return;
   for (Segment& still : after) chain_.push_still(std::move(still));
 }
 
+// The pending move without its end, then the blend: its first half belongs to the left block, its
+// second half to the right one.
+void Shaper::add_blend(const Move& left, const Move& right, const CornerBlend& corner) {
+  const Blend first = sub_blend(corner.blend, 0, 0.5), second = sub_blend(corner.blend, 0.5, 1);
+  const auto half = [](const Move& move, const Blend& blend, bool last_part) {
+    Segment out = move.segment;
+    if (!move.parts.empty())
+      out.command = last_part ? move.parts.back().command : move.parts.front().command;
+    out.kind = MotionKind::blend;
+    out.path = blend;
+    return out;
+  };
+  Segment in = half(left, first, true), out = half(right, second, false);
+  const double left_length = length(left.segment.path);
+  in.u0 = 1 - corner.cut / left_length;
+  out.u1 = corner.cut / length(right.segment.path);
+  const double feed = left.feed;
+  end_ = left_length - corner.cut;
+  std::vector<Segment> after = std::move(after_);
+  after_.clear();
+  finish_pending();
+  if (failed_) return;
+  add(std::move(in), Metric::xyz, feed);
+  if (failed_) return;
+  for (Segment& still : after) chain_.push_still(std::move(still));
+  add(std::move(out), Metric::xyz, right.feed);
+}
+
+// What is left of a move between two values of its s; a chord goes out line by line.
+void Shaper::add_range(Move& move, double begin, double end) {
+  const double whole = length(move.segment.path);
+  const auto piece = [&](canon::Command command, double low, double high, double from, double to) {
+    Segment out = move.segment;
+    out.command = std::move(command);
+    if (to - from > 1e-12 * whole) {
+      out.path = sub_path(move.segment.path, from, to);
+      out.u0 = (from - low) / (high - low);
+      out.u1 = (to - low) / (high - low);
+      add(std::move(out), move.metric, move.feed);
+    } else if (!move.parts.empty()) {
+      // A line that a blend took off whole still reaches the listeners.
+      out.path = Hold{evaluate(move.segment.path, std::clamp(high, begin, end)).p};
+      out.u0 = out.u1 = 1;
+      chain_.push_still(std::move(out));
+    }
+  };
+  if (move.parts.empty()) {
+    piece(move.segment.command, 0, whole, begin, end);
+    return;
+  }
+  double low = 0;
+  for (Part& part : move.parts) {
+    piece(std::move(part.command), low, part.end, std::clamp(low, begin, end),
+          std::clamp(part.end, begin, end));
+    if (failed_) return;
+    for (Segment& still : part.after) chain_.push_still(std::move(still));
+    low = part.end;
+  }
+}
+
 // Gives a piece to the chain, or its good part and the failure.
-void Shaper::add(Move move, bool stop_before) {
-  Segment& segment = move.segment;
+void Shaper::add(Segment segment, Metric metric, double feed) {
   const machine::Kinematics& kinematics = machine_.kinematics();
   const double whole = length(segment.path);
   if (const auto limit =
@@ -119,16 +233,16 @@ void Shaper::add(Move move, bool stop_before) {
   }
   // A piece that turns singular on the way is cut there and tried again.
   for (int tries = 0; length(segment.path) > 1e-9 * whole; ++tries) {
-    auto grid = make_grid(kinematics, segment.path, move.metric, move.feed, segment.tool_offset,
-                          limits_, joints_);
+    auto grid =
+        make_grid(kinematics, segment.path, metric, feed, segment.tool_offset, limits_, joints_);
     if (grid) {
-      append(std::move(segment), std::move(*grid), stop_before);
+      append(std::move(segment), std::move(*grid));
       return;
     }
     const double here = length(segment.path);
     const double good = tries < 8 ? std::min(grid.error().s, 0.999 * here) : 0;
     const double fraction = segment.u0 + (segment.u1 - segment.u0) * good / here;
-    if (!segment.failure || grid.error().singular)
+    if (!segment.failure || !grid.error().singular)
       segment.failure = Failure{grid.error().singular ? "singular" : "unreachable",
                                 grid.error().reason, fraction, evaluate(segment.path, good).p};
     segment.path = sub_path(segment.path, 0, good);
@@ -141,11 +255,10 @@ void Shaper::add(Move move, bool stop_before) {
   chain_.push_still(std::move(segment));
 }
 
-void Shaper::append(Segment segment, Grid grid, bool stop_before) {
+void Shaper::append(Segment segment, Grid grid) {
   const AxisValues d = start_direction(segment.path);
   Piece piece;
-  joints_ = grid.q_end;
-  if (!stop_before) {
+  if (!at_rest_) {
     const double scale = mixed_norm(d_end_) / mixed_norm(d);  // path speed here per speed before
     piece.per_exit = scale * scale;
     const machine::JointVector jump =
@@ -153,13 +266,14 @@ void Shaper::append(Segment segment, Grid grid, bool stop_before) {
     const double fastest = 1 / jump.cwiseAbs().maxCoeff();
     piece.entry = std::min(fastest * fastest, grid.cap.front());
   }
+  at_rest_ = false;
+  joints_ = grid.q_end;
   d_end_ = end_direction(segment.path);
   dq_end_ = grid.dq_end;
   piece.segment = std::move(segment);
   piece.grid = std::move(grid);
-  const bool last = failed_;
   chain_.push(std::move(piece));
-  if (last) chain_.stop();
+  if (failed_) chain_.stop();
 }
 
 }  // namespace aircut::plan

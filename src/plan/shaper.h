@@ -1,9 +1,17 @@
 // Private: from moves to pieces whose geometry is final: what happens at each corner.
 #pragma once
 
+#include "plan/blend.h"
 #include "plan/chain.h"
 
 namespace aircut::plan {
+
+/// A line that a chord replaces: its share of the chord, and what stands behind it.
+struct Part {
+  canon::Command command;
+  double end = 0;  ///< s on the chord
+  std::vector<Segment> after;
+};
 
 /// A moving command with the modal state that it was given in.
 struct Move {
@@ -11,7 +19,9 @@ struct Move {
   Metric metric = Metric::none;
   double feed = 0;  ///< limit of the tip's speed along the metric; infinity for a rapid
   canon::PathMode mode = canon::PathMode::continuous;
-  double tolerance = 0;  ///< G64 P; 0 = no limit
+  double tolerance = 0;     ///< G64 P, mm; 0 = no limit
+  double merge = 0;         ///< G64 Q, mm; 0 = off
+  std::vector<Part> parts;  ///< of a merged chord; empty for a single command
 };
 
 class Shaper {
@@ -28,26 +38,31 @@ class Shaper {
 
   /// After a failure nothing comes in any more.
   bool failed() const { return failed_; }
-  const machine::JointVector& joints() const { return joints_; }
 
  private:
-  enum class Corner { stop, pass };
-  Corner corner_of(const Move& left, const Move& right) const;
+  struct Rest {};  ///< the corner is a stop
+  struct Pass {};  ///< both sides are tangent
+  using Corner = std::variant<Rest, Pass, CornerBlend>;
+
+  Corner corner_to(const Move& right) const;
+  double demand(const Blend& blend, double feed) const;
   void finish_pending();
-  void add(Move move, bool stop_before);
-  void fail(Segment segment, const Failure& failure, bool stop_before);
-  void append(Segment segment, Grid grid, bool stop_before);
+  void add_blend(const Move& left, const Move& right, const CornerBlend& corner);
+  void add_range(Move& move, double begin, double end);
+  void add(Segment segment, Metric metric, double feed);
+  void append(Segment segment, Grid grid);
 
   const machine::Machine& machine_;
   JointLimits limits_;
   double period_;
   Chain chain_;
-  std::optional<Move> pending_;       ///< its end is not final
-  bool pending_stops_before_ = true;  ///< rest at its start
-  std::vector<Segment> after_;        ///< stand-still segments behind the pending move
-  machine::JointVector joints_;       ///< at the end of what went into the chain
-  machine::JointVector dq_end_;       ///< q' at the end of the last piece
-  AxisValues d_end_;                  ///< tip's derivative there
+  std::optional<Move> pending_;  ///< its end is not final
+  double begin_ = 0, end_ = 0;   ///< what is left of the pending move, along its s
+  std::vector<Segment> after_;   ///< stand-still segments behind the pending move
+  bool at_rest_ = true;          ///< the next piece starts from rest
+  machine::JointVector joints_;  ///< at the end of what went into the chain
+  machine::JointVector dq_end_;  ///< q' at the end of the last piece
+  AxisValues d_end_;             ///< tip's derivative there
   bool failed_ = false;
   std::vector<double> scratch_;
 };

@@ -1,0 +1,179 @@
+// Corner blends: a quintic Bezier that meets both sides with their tangent and curvature.
+//
+//            corner                  On each side three control points: at the cut (distance L
+//      L .____.__.-------            from the corner), then (1 − b1) L and (1 − b2) L along the
+//         P0 P1 P2  \  P3            tangent, the third moved by the side's curvature so that the
+//                    |               second derivatives agree:
+//                    | P4              P1 = P0 + (1 − b1) L T
+//                    | P5              P2 = P1 + (b1 − b2) L T + h² κN / 20,  h = 5 (1 − b1) L
+//
+// b1 and b2 by the turn angle θ are the low-curvature shape: peak curvature within 3 % of a
+// circular fillet of the same tolerance. Between lines the middle point lies (1 + 5 b1 + 10 b2) /
+// 32 · |w − u| · L from the corner (u, w unit tangents), which gives L from the tolerance in closed
+// form; at arcs L is bisected until the largest distance from the original sides is within it.
+//
+// No rounder than needed: acceleration on the blend goes with 1 / L at the same speed, so L shrinks
+// to the size at which the wanted speed just is possible.
+#include "plan/blend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace aircut::plan {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double largest_turn = 175 * degree;  // beyond it the way goes back: stop
+constexpr double rotary_tolerance = 0.05 * degree;
+constexpr double smallest_cut = 1e-7;  // mm
+
+Vec3 xyz_of(const AxisValues& p) { return {p[Axis::x], p[Axis::y], p[Axis::z]}; }
+double uvw_norm(const AxisValues& p) { return metric_length(Metric::uvw, p); }
+double abc_norm(const AxisValues& p) { return metric_length(Metric::abc, p); }
+
+struct Shape {
+  double b1, b2;
+};
+
+Shape shape_for(double theta) {
+  struct Row {
+    double theta, b1, b2;
+  };
+  constexpr std::array<Row, 3> rows = {
+      {{30 * degree, 0.85, 0.272}, {90 * degree, 0.825, 0.394}, {150 * degree, 0.925, 0.682}}};
+  if (theta <= rows[0].theta) return {rows[0].b1, rows[0].b2};
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (theta <= rows[i].theta) {
+      const double f = (theta - rows[i - 1].theta) / (rows[i].theta - rows[i - 1].theta);
+      return {std::lerp(rows[i - 1].b1, rows[i].b1, f), std::lerp(rows[i - 1].b2, rows[i].b2, f)};
+    }
+  return {rows[2].b1, rows[2].b2};
+}
+
+// Length of the tip's way along XYZ: Gauss's rule with four points on each half.
+double way_of(const Blend& blend) {
+  constexpr std::array<double, 4> x = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
+                                       0.9305681557970263};
+  constexpr std::array<double, 4> w = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
+                                       0.1739274225687269};
+  double sum = 0;
+  for (const double half : {0.0, 0.5})
+    for (std::size_t i = 0; i < 4; ++i)
+      sum += w[i] / 2 * metric_length(Metric::xyz, evaluate(blend, half + x[i] / 2).d);
+  return sum;
+}
+
+Blend bezier(const CornerShape& corner, const Shape& shape, double cut) {
+  const PathPoint a = evaluate(corner.left, length(corner.left) - cut);
+  const PathPoint b = evaluate(corner.right, cut);
+  const double first = (1 - shape.b1) * cut, second = (shape.b1 - shape.b2) * cut;
+  const double bend = 25 * first * first / 20;  // h² / 20
+  Blend out;
+  out.control[0] = a.p;
+  out.control[1] = a.p + first * a.d;
+  out.control[2] = out.control[1] + second * a.d + bend * a.dd;
+  out.control[5] = b.p;
+  out.control[4] = b.p - first * b.d;
+  out.control[3] = out.control[4] - second * b.d + bend * b.dd;
+  out.length = 1;  // so that way_of() integrates over u
+  out.length = way_of(out);
+  return out;
+}
+
+// s of a point of the path near `p`, within [low, high]; for lines and arcs the nearest one but for
+// a helix' pitch. (Any point gives a distance that is too large, never too small.)
+double near_s(const Path& path, const Vec3& p, double low, double high) {
+  if (const auto* line = std::get_if<Line>(&path)) {
+    const Vec3 start = xyz_of(line->start), way = xyz_of(line->end) - start;
+    return std::clamp((p - start).dot(way) / way.squaredNorm() * line->length, low, high);
+  }
+  if (const auto* arc = std::get_if<Arc>(&path)) {
+    const Vec3 r = p - foot_of(*arc);
+    double angle = std::atan2(r.dot(arc->normal.cross(arc->radial)), r.dot(arc->radial));
+    const double middle = arc->angle * (low + high) / 2 / arc->length;
+    angle += 2 * std::numbers::pi * std::round((middle - angle) / (2 * std::numbers::pi));
+    return std::clamp(angle / arc->angle * arc->length, low, high);
+  }
+  return low;
+}
+
+// Largest distance from the sides as a share of the tolerances.
+double deviation(const CornerShape& corner, const Blend& blend, double cut) {
+  const double left_length = length(corner.left);
+  double worst = 0;
+  for (int k = 1; k < 33; ++k) {
+    const AxisValues p = evaluate(blend, blend.length * k / 33).p;
+    const auto off = [&](const Path& side, double low, double high) {
+      const AxisValues way = p - evaluate(side, near_s(side, xyz_of(p), low, high)).p;
+      const double linear = std::max(metric_length(Metric::xyz, way), uvw_norm(way));
+      return std::max(corner.tolerance > 0 ? linear / corner.tolerance : 0,
+                      abc_norm(way) / rotary_tolerance);
+    };
+    worst = std::max(worst, std::min(off(corner.left, left_length - cut, left_length),
+                                     off(corner.right, 0, cut)));
+  }
+  // Between the samples the distance can be larger by a share of about 1 / 33².
+  return worst * 1.002;
+}
+
+// Longest cut that the tolerance allows between two lines.
+double line_cut(const CornerShape& corner, const Shape& shape, const AxisValues& turn) {
+  const double share = (1 + 5 * shape.b1 + 10 * shape.b2) / 32;
+  double cut = std::min(corner.left_room, corner.right_room);
+  if (corner.tolerance > 0)
+    cut = std::min(cut, corner.tolerance /
+                            (share * std::max(metric_length(Metric::xyz, turn), uvw_norm(turn))));
+  if (const double rotary = abc_norm(turn); rotary > 0)
+    cut = std::min(cut, rotary_tolerance / (share * rotary));
+  return cut;
+}
+
+double arc_cut(const CornerShape& corner, const Shape& shape) {
+  double room = std::min(corner.left_room, corner.right_room);
+  for (const Path* side : {&corner.left, &corner.right})
+    if (const auto* arc = std::get_if<Arc>(side))
+      room = std::min(room, arc->length / std::abs(arc->angle));  // one radian
+  const auto fits = [&](double cut) {
+    return deviation(corner, bezier(corner, shape, cut), cut) <= 1;
+  };
+  if (fits(room)) return room;
+  double good = 0, bad = room;
+  for (int i = 0; i < 40 && bad - good > 1e-4 * bad; ++i) {
+    const double middle = (good + bad) / 2;
+    (fits(middle) ? good : bad) = middle;
+  }
+  return good;
+}
+
+}  // namespace
+
+std::optional<CornerBlend> make_blend(const CornerShape& corner, const Demand& demand) {
+  const AxisValues in = evaluate(corner.left, length(corner.left)).d;
+  const AxisValues out = evaluate(corner.right, 0).d;
+  const double in_size = metric_length(Metric::xyz, in), out_size = metric_length(Metric::xyz, out);
+  if (!(in_size > 0) || !(out_size > 0)) return std::nullopt;
+  const Vec3 u = xyz_of(in) / in_size, w = xyz_of(out) / out_size;
+  const double theta = 2 * std::atan2((w - u).norm(), (w + u).norm());
+  if (theta > largest_turn) return std::nullopt;
+  const Shape shape = shape_for(theta);
+  const bool lines =
+      std::holds_alternative<Line>(corner.left) && std::holds_alternative<Line>(corner.right);
+  double cut = lines ? line_cut(corner, shape, (1 / out_size) * out - (1 / in_size) * in)
+                     : arc_cut(corner, shape);
+  if (!(cut > smallest_cut)) return std::nullopt;
+  Blend blend = bezier(corner, shape, cut);
+  for (int round = 0; round < 4; ++round) {
+    const double need = demand(blend);
+    if (!(need < 0.98)) break;
+    const double smaller = std::max(cut * need * 1.005, smallest_cut);
+    Blend rounded = bezier(corner, shape, smaller);
+    if (!(demand(rounded) <= 1)) break;
+    if (!lines && deviation(corner, rounded, smaller) > 1) break;
+    cut = smaller;
+    blend = rounded;
+  }
+  return CornerBlend{blend, cut};
+}
+
+}  // namespace aircut::plan
