@@ -4,14 +4,14 @@ include <params.scad>
 difference() {
   union() {
     translate([x_mid, 0, 0]) {
-      taper([-wall_out - 25, -430, wall_out + 25, 400], floor_z + 50, [-wall_out, -400, wall_out, 380], -640, 24);
+      taper([-wall_out - 25, -430, wall_out + 25, 455], floor_z + 50, [-wall_out, -400, wall_out, 435], -640, 24);
       for (s = [0, 1]) mirror([s, 0, 0]) hull() {
-        block_at([wall_in - 30, -375, -650], [wall_out, 365, -640], 3);
-        block_at([wall_in, -350, -560], [wall_out, 350, -550], 3);
+        block_at([wall_in - 30, -375, -650], [wall_out, 425, -640], 3);
+        block_at([wall_in, -350, -560], [wall_out, 415, -550], 3);
       }
-      for (s = [0, 1]) mirror([s, 0, 0]) block_at([wall_in, -350, -560], [wall_out, 350, wall_top], 8);
-      // cross member at the back, low enough to keep the mechanism in view
-      block_at([-wall_in - 10, 290, -420], [wall_in + 10, 350, -250], 10);
+      for (s = [0, 1]) mirror([s, 0, 0]) block_at([wall_in, -350, -560], [wall_out, 415, wall_top], 8);
+      // cross member, behind what the platform reaches at Y 150
+      block_at([-wall_in - 10, 362, -420], [wall_in + 10, 412, -250], 8);
     }
   }
   // windows of the walls, drawn as a truss
