@@ -1,0 +1,221 @@
+#include <limits>
+
+#include "render/scenes.h"
+
+namespace aircut::render {
+namespace {
+
+constexpr int side = 400;
+
+TEST(Picture, ShowsABoxOnAsManyPixelsAsItsAreaInAParallelView) {
+  Renderer r = renderer(side, side);
+  // 100 x 50 mm at 2 pixels a mm.
+  const Scene scene = bare_scene({body("box", block(100, 30, 50))});
+  const auto counts = r.visible_pixels(scene, front_camera(200));
+  EXPECT_NEAR(counts.at(0), 200 * 100, 300);  // half a pixel around
+}
+
+TEST(Picture, ShowsABoxOnAsManyPixelsAsItsFrontInPerspective) {
+  Renderer r = renderer(side, side);
+  Camera camera = front_camera(0);
+  camera.field_of_view = 0.5;
+  const Scene scene = bare_scene({body("box", block(100, 30, 50))});
+  // The front stands 1000 - 15 mm before the eye and hides the rest.
+  const double scale = side / (2 * std::tan(0.25) * 985);
+  EXPECT_NEAR(r.visible_pixels(scene, camera).at(0), 100 * 50 * scale * scale, 150);
+}
+
+TEST(Picture, LetsTheNearBodyHideTheFarOne) {
+  Renderer r = renderer(side, side);
+  const Scene scene = bare_scene({body("far", block(100, 10, 100), Vec3(0, 50, 0)),
+                                  body("near", block(50, 10, 100), Vec3(25, -50, 0)),
+                                  body("behind", block(20, 5, 20), Vec3(25, 30, 0))});
+  const auto counts = r.visible_pixels(scene, front_camera(200));
+  EXPECT_NEAR(counts.at(0), 100 * 200, 220);
+  EXPECT_NEAR(counts.at(1), 100 * 200, 220);
+  EXPECT_EQ(counts.at(2), 0);
+}
+
+TEST(Picture, LetsATranslucentBodyHideNothing) {
+  Renderer r = renderer(side, side);
+  Scene scene = bare_scene(
+      {body("far", block(40, 10, 40)), body("cover", block(100, 10, 100), Vec3(0, -50, 0))});
+  scene.bodies[1].translucent = true;
+  const auto counts = r.visible_pixels(scene, front_camera(200));
+  EXPECT_NEAR(counts.at(0), 80 * 80, 100);
+  EXPECT_NEAR(counts.at(1), 200 * 200, 300);
+  // It shimmers through in the picture, too: the middle is darker than the cover beside it.
+  scene.bodies[0].color = {20, 20, 20};
+  const Image image = r.draw(scene, front_camera(200));
+  EXPECT_LT(pixel(image, 200, 200)[1] + 30, pixel(image, 130, 200)[1]);
+}
+
+TEST(Picture, DrawsLitBodiesOnALightGround) {
+  Renderer r = renderer(side, side);
+  Scene scene = bare_scene({body("box", block(100, 30, 50))});
+  scene.bodies[0].color = {30, 80, 170};
+  const Image image = r.draw(scene, front_camera(200));
+  ASSERT_EQ(image.rgba.size(), static_cast<std::size_t>(side) * side * 4);
+  const auto ground = pixel(image, 10, 200), blue = pixel(image, 200, 200);
+  EXPECT_GT(ground[0], 180);
+  EXPECT_GT(blue[2], blue[0] + 40);
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) ASSERT_EQ(image.rgba[i], 255);
+}
+
+TEST(Picture, MakesTheTopOfABoxBrighterThanItsShadedSide) {
+  Renderer r = renderer(side, side);
+  Scene scene = bare_scene({body("box", block(80, 80, 80))});
+  const Image image = r.draw(scene, *camera_by_name("200,-200,200,0,0,0", Box3(), 1));
+  // From the front right and above: the top is up in the picture, the right side right below.
+  EXPECT_GT(pixel(image, 200, 160)[1], pixel(image, 230, 230)[1] + 15);
+}
+
+TEST(Picture, DarkensTheFloorUnderABody) {
+  Renderer r = renderer(side, side);
+  Scene scene = bare_scene({body("roof", block(100, 100, 10), Vec3(0, 0, 60)),
+                            body("foot", block(10, 10, 60), Vec3(0, 0, 30))});
+  scene.floor = true;
+  const Camera camera = *camera_by_name("0,-400,120,0,0,30", Box3(), 1);
+  const Image with = r.draw(scene, camera);
+  scene.bodies.erase(scene.bodies.begin());
+  scene.bodies.push_back(body("far", block(1, 1, 10), Vec3(49, 49, 60)));
+  const Image without = r.draw(scene, camera);
+  double darker = 0;
+  for (int x = 120; x < 280; ++x) darker += pixel(without, x, 250)[1] - pixel(with, x, 250)[1];
+  EXPECT_GT(darker / 160, 8);
+}
+
+TEST(Picture, ShowsABodyInAlarmThroughItsCover) {
+  Renderer r = renderer(side, side);
+  Scene scene = bare_scene(
+      {body("cover", block(100, 10, 100), Vec3(0, -50, 0)), body("hit", block(40, 10, 40))});
+  scene.bodies[1].highlight = true;
+  EXPECT_EQ(r.visible_pixels(scene, front_camera(200)).at(1), 0);
+  const auto reddish = [](const Image& image) {
+    int count = 0;
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x) {
+        const auto c = pixel(image, x, y);
+        count += c[0] > c[1] + 25 ? 1 : 0;
+      }
+    return count;
+  };
+  const int covered = reddish(r.draw(scene, front_camera(200)));
+  EXPECT_NEAR(covered, 80 * 80, 500);
+  scene.bodies.erase(scene.bodies.begin());
+  const Image open = r.draw(scene, front_camera(200));
+  EXPECT_TRUE(is_red(pixel(open, 200, 200)));
+}
+
+TEST(Picture, MarksAContactEvenBehindABody) {
+  Renderer r = renderer(side, side);
+  Scene scene = bare_scene({body("box", block(100, 100, 100))});
+  const Image plain = r.draw(scene, front_camera(200));
+  scene.markers = {{Vec3(20, 0, -10)}};  // inside; 2 pixels a mm: at 240, 220
+  const Image marked = r.draw(scene, front_camera(200));
+  EXPECT_TRUE(is_red(pixel(marked, 240, 220)));
+  EXPECT_FALSE(is_red(pixel(plain, 240, 220)));
+}
+
+TEST(Picture, DrawsToolPathsInTheColourOfTheirKind) {
+  Renderer r = renderer(side, side);
+  Scene scene = bare_scene({});
+  scene.lines = {{LineKind::feed, {Vec3(-40, 0, 20), Vec3(40, 0, 20)}},
+                 {LineKind::arc, {Vec3(-40, 0, -20), Vec3(40, 0, -20)}},
+                 {LineKind::rapid, {Vec3(-40, 0, 0), Vec3(40, 0, 0)}}};
+  const Image image = r.draw(scene, front_camera(200));
+  const auto feed = pixel(image, 200, 160), arc = pixel(image, 200, 240);
+  EXPECT_GT(feed[2], feed[0] + 60);
+  EXPECT_GT(arc[1], arc[0] + 40);
+  int on = 0;
+  for (int x = 125; x < 275; ++x) {
+    const auto c = pixel(image, x, 200);
+    on += c[0] > c[2] + 60 ? 1 : 0;
+  }
+  EXPECT_GT(on, 60);   // dashes …
+  EXPECT_LT(on, 120);  // … with gaps
+}
+
+TEST(Picture, KeepsAFaintTraceOfAPathInsideABody) {
+  Renderer r = renderer(side, side);
+  Scene scene = bare_scene({body("box", block(100, 100, 100))});
+  scene.bodies[0].color = {200, 200, 200};
+  const Image plain = r.draw(scene, front_camera(200));
+  scene.lines = {{LineKind::feed, {Vec3(-40, 0, 20), Vec3(40, 0, 20)}}};
+  const Image image = r.draw(scene, front_camera(200));
+  const int fainter = pixel(plain, 200, 160)[0] - pixel(image, 200, 160)[0];
+  EXPECT_GT(fainter, 8);
+  EXPECT_LT(fainter, 90);
+}
+
+TEST(Picture, IsDrawnInTilesWithoutASeam) {
+  // 2600 pixels take two tiles; the same view in 1300 takes one.
+  const Scene scene = [] {
+    Scene out = rich_scene();
+    out.caption = {};
+    out.markers.clear();
+    out.lines.clear();
+    out.triad = false;
+    return out;
+  }();
+  const Box3 box(Vec3(-100, -60, -20), Vec3(100, 60, 120));
+  const Camera camera = *camera_by_name("front", box, 4);
+  const Image large = renderer(2600, 650).draw(scene, camera);
+  const Image small = renderer(1300, 325).draw(scene, camera);
+  ASSERT_EQ(large.width, 2600);
+  Image shrunk = small;
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x)
+      for (std::size_t c = 0; c < 3; ++c) {
+        int sum = 0;
+        for (int k = 0; k < 4; ++k) sum += pixel(large, 2 * x + k % 2, 2 * y + k / 2)[c];
+        shrunk.rgba[(static_cast<std::size_t>(y) * 1300 + static_cast<std::size_t>(x)) * 4 + c] =
+            static_cast<unsigned char>(sum / 4);
+      }
+  EXPECT_LT(mean_difference(shrunk, small), 3.0);
+}
+
+TEST(Picture, SurvivesScenesThatHaveNothingToShow) {
+  Renderer r = renderer(64, 48);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Scene scene;
+  EXPECT_EQ(r.draw(scene, Camera{}).width, 64);
+  scene.bodies.resize(2);  // no mesh
+  scene.bodies[1] = body("lost", block(1, 1, 1), Vec3(nan, 0, 0));
+  scene.bodies.push_back(body("empty", TriangleMesh{}));
+  scene.lines = {{LineKind::feed, {Vec3(nan, 0, 0), Vec3(1, 1, 1)}}, {LineKind::arc, {}}};
+  scene.markers = {{Vec3(0, nan, 0)}};
+  EXPECT_EQ(r.draw(scene, Camera{}).height, 48);
+  EXPECT_EQ(r.visible_pixels(scene, Camera{}), (std::vector<int>{0, 0, 0}));
+}
+
+TEST(Picture, SurvivesACameraInsideABody) {
+  Renderer r = renderer(64, 48);
+  const Scene scene = bare_scene({body("box", block(100, 100, 100))});
+  Camera camera;
+  camera.eye = Vec3::Zero();
+  camera.target = Vec3(0, 10, 0);
+  EXPECT_EQ(r.draw(scene, camera).width, 64);
+}
+
+TEST(Picture, RefusesASizeThatCannotBeDrawn) {
+  for (const FrameSize size : {FrameSize{0, 100}, FrameSize{100, -1}, FrameSize{20000, 10},
+                               FrameSize{10000, 10, Supersample::twice}}) {
+    const auto made = Renderer::create(size);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().kind, "output_failed");
+  }
+  EXPECT_TRUE(Renderer::create({1, 1}));
+}
+
+TEST(Picture, MayBeSupersampled) {
+  auto fine = Renderer::create({320, 200, Supersample::twice});
+  ASSERT_TRUE(fine);
+  const Image twice = fine->draw(rich_scene(), rich_camera());
+  const Image once = renderer(320, 200).draw(rich_scene(), rich_camera());
+  EXPECT_EQ(twice.width, 320);
+  EXPECT_LT(mean_difference(twice, once), 5.0);
+}
+
+}  // namespace
+}  // namespace aircut::render
