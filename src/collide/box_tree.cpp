@@ -58,7 +58,7 @@ RayHit ray_triangle(const Vec3& origin, const Vec3& direction, const Triangle& t
                                                                     : RayHit::unclear;
   }
   const Vec3 e = w.cross(direction);
-  const double a = -v.dot(e) / facing, b = u.dot(e) / facing;
+  const double a = v.dot(e) / facing, b = -u.dot(e) / facing;
   t = n.dot(w) / facing;
   if (a < -margin || b < -margin || a + b > 1 + margin) return RayHit::misses;
   if (a < margin || b < margin || a + b > 1 - margin) return RayHit::unclear;
