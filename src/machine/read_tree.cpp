@@ -58,6 +58,7 @@ void read_limits(config::Table& table, Joint& joint, double unit_mm) {
                            shortest(joint.max / unit) + ")");
   joint.vmax = positive(table, "vmax", unit, "the top speed in units per second");
   joint.amax = positive(table, "amax", unit, "the top acceleration in units per second²");
+  table.know("jmax");
   if (table.has("jmax")) joint.jmax = positive(table, "jmax", unit, "");
 
   const std::string wrap = table.choice("wrap", {"none", "shortest", "modulo"}, "none");

@@ -20,6 +20,7 @@ std::vector<SetupFixture> read_fixtures(config::Table& top, double unit_mm) {
     fixture.name = table.required_text("name");
     if (!fixture.name.empty() && !names.insert(fixture.name).second)
       table.error("name", "fixture '" + fixture.name + "' is there twice");
+    table.know("place");
     if (table.has("place")) fixture.place = point(table, "place", Vec3::Zero(), unit_mm);
     if (const auto angle = table.number("angle")) fixture.angle = *angle * deg;
     fixture.present = table.boolean("present", true);
