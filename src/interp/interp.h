@@ -49,8 +49,8 @@ struct Options {
   double arc_tolerance = 0.0283;                    ///< centre-format radius tolerance, mm (G21)
   double arc_tolerance_inch = 0.00283;              ///< the same in inches (G20)
   int spindles = 1;                                 ///< 1-8
-  double g73_clearance = 0;  ///< mm; 0: 0.254 mm (G21) or 0.010 in (G20)
-  double g83_clearance = 0;  ///< mm; 0: the same
+  double g73_clearance = 0;                         ///< mm; 0: 0.254 mm (G21) or 0.010 in (G20)
+  double g83_clearance = 0;                         ///< mm; 0: the same
   Limits limits;
 };
 

@@ -1,0 +1,105 @@
+// One line of a program as a value: words, settings, comments, or one O-word construct, each with
+// its place. A block holds no state; the numbers of its words are filled in when it is executed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "interp/expression.h"
+
+namespace aircut::interp {
+
+struct CodeRule;
+
+/// A word such as `X10`, `G5.1` or `P[#1+2]`.
+struct Word {
+  char letter = 0;  ///< upper case, or one of $ @ ^
+  Place place;
+  Value text;                      ///< as written
+  double number = 0;               ///< as evaluated when the block is executed
+  const CodeRule* rule = nullptr;  ///< of a G or M word whose number is constant
+};
+
+/// `#3=…` or `#<name>=…`.
+struct Setting {
+  Place place;             ///< of the target
+  std::int32_t name = -1;  ///< id of a named parameter, else -1
+  Value target;            ///< number of a numbered parameter
+  Value value;
+};
+
+struct Comment {
+  Place place;
+  std::uint32_t text_begin = 0;  ///< what stands between the parentheses, relative to the line
+  std::uint32_t text_length = 0;
+};
+
+enum class Keyword : unsigned char {
+  none,
+  sub,
+  endsub,
+  call,
+  return_,
+  if_,
+  elseif,
+  else_,
+  endif,
+  while_,
+  endwhile,
+  do_,
+  repeat,
+  endrepeat,
+  break_,
+  continue_,
+  fanuc_sub
+};
+
+/// `o100 while [#1 lt 5]`.
+struct OWord {
+  Keyword keyword = Keyword::none;
+  Place place;                    ///< `o` up to the keyword
+  std::string label;              ///< normalised: lower case without blanks, `100`, `name`, `[#1]`
+  std::optional<Value> computed;  ///< label given as an expression
+  std::vector<Value> arguments;
+  std::vector<Place> argument_places;
+  std::int32_t entry = -1;  ///< index in the file's flow index once known
+};
+
+struct Fault;
+
+struct Block {
+  std::uint64_t begin = 0;       ///< byte offset of the line in its text
+  std::uint32_t line = 0;        ///< from 1
+  std::uint32_t length = 0;      ///< bytes without line end and trailing blanks
+  std::uint64_t next_begin = 0;  ///< where the following line starts
+  bool block_delete = false;
+  bool empty = true;             ///< nothing but blanks
+  bool has_rules = false;        ///< has G or M words
+  bool has_expressions = false;  ///< some word needs evaluation
+  std::vector<Word> words;
+  std::array<std::int8_t, 32> slot{};  ///< letter_index → position in words, -1 without
+  std::vector<Setting> settings;
+  std::optional<Comment> comment;  ///< the last parenthesised one
+  OWord oword;
+  Code code;                   ///< instructions of all expressions of the line
+  Block* following = nullptr;  ///< the next line when that is cached too
+
+  const Word* find(char letter) const;
+  void clear();
+};
+
+/// 0..25 for A..Z, then $ @ ^.
+constexpr int letter_index(char letter) {
+  if (letter >= 'A' && letter <= 'Z') return letter - 'A';
+  return letter == '$' ? 26 : letter == '@' ? 27 : 28;
+}
+
+inline const Word* Block::find(char letter) const {
+  const int at = slot[static_cast<std::size_t>(letter_index(letter))];
+  return at < 0 ? nullptr : &words[static_cast<std::size_t>(at)];
+}
+
+}  // namespace aircut::interp

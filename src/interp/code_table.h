@@ -1,0 +1,111 @@
+// The codes of the dialect: one row per code. The core derives from it the clashes in a modal
+// group, the words that nobody uses, and the order in which the codes of a line act.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace aircut::interp {
+
+class BlockRun;
+struct CodeRule;
+
+enum class ModalGroup : unsigned char {
+  non_modal,
+  offset_reset,
+  motion,
+  plane,
+  distance,
+  arc_centre,
+  feed_mode,
+  unit,
+  radius_comp,
+  length_offset,
+  retract,
+  work_system,
+  control,
+  spindle_mode,
+  lathe,
+  stop,
+  io,
+  tool,
+  spindle,
+  coolant,
+  override_,
+  user
+};
+const char* name_of(ModalGroup group);
+
+/// In this order the codes of a line act (interp.md 6). F, S and T are words with a phase.
+enum class Phase : unsigned char {
+  spindle_mode,
+  feed_mode,
+  feed,
+  speed,
+  tool_select,
+  io,
+  tool_change,
+  spindle,
+  coolant,
+  override_,
+  user,
+  dwell,
+  plane,
+  unit,
+  lathe,
+  radius_comp,
+  length_offset,
+  work_system,
+  control,
+  distance,
+  arc_centre,
+  retract,
+  non_modal,
+  motion,
+  stop
+};
+
+/// What the axis words of a line are for when the code is on it.
+enum class AxisUse : unsigned char {
+  none,      ///< the code leaves them to the motion
+  motion,    ///< a motion code
+  own,       ///< the code takes them (G10 G28 G92 …); there is no motion then
+  optional,  ///< takes them and leaves them to a motion code on the line too (G43.1)
+};
+
+using Handler = void (*)(const CodeRule& rule, BlockRun& run);
+
+struct CodeRule {
+  char letter;
+  std::int16_t code;  ///< G: number × 10; M: number
+  ModalGroup group;
+  Phase phase;
+  AxisUse axes;
+  const char* words;  ///< letters that it may use, without axis words
+  Handler handler;    ///< null: known, but not implemented
+};
+
+/// `G5.1`, `M3`.
+std::string name_of(const CodeRule& rule);
+
+/// All rows, in no particular order.
+std::span<const CodeRule> all_rules();
+
+class CodeTable {
+ public:
+  CodeTable();
+  /// The row of a G or M word, or null when there is no such code.
+  const CodeRule* find(char letter, double number) const;
+  const CodeRule* find_g(int code) const {
+    return code >= 0 && code < 1000 ? g_[static_cast<std::size_t>(code)] : nullptr;
+  }
+
+ private:
+  std::array<const CodeRule*, 1000> g_{};
+  std::array<const CodeRule*, 200> m_{};
+};
+
+}  // namespace aircut::interp

@@ -1,0 +1,88 @@
+// The handlers of the code table, one file per subject.
+#pragma once
+
+#include "interp/run.h"
+
+namespace aircut::interp {
+
+// motion.cpp
+void rapid(const CodeRule&, BlockRun&);
+void linear_feed(const CodeRule&, BlockRun&);
+void cancel_motion(const CodeRule&, BlockRun&);
+void thread(const CodeRule&, BlockRun&);
+void rigid_tap(const CodeRule&, BlockRun&);
+void probe(const CodeRule&, BlockRun&);
+// arcs.cpp
+void arc(const CodeRule&, BlockRun&);
+// splines.cpp
+void cubic_spline(const CodeRule&, BlockRun&);
+void quadratic_spline(const CodeRule&, BlockRun&);
+void nurbs_point(const CodeRule&, BlockRun&);
+void nurbs_end(const CodeRule&, BlockRun&);
+// cycles.cpp
+void canned_cycle(const CodeRule&, BlockRun&);
+// threading.cpp
+void thread_cycle(const CodeRule&, BlockRun&);
+// modes.cpp
+void select_plane(const CodeRule&, BlockRun&);
+void select_unit(const CodeRule&, BlockRun&);
+void lathe_mode(const CodeRule&, BlockRun&);
+void distance_mode(const CodeRule&, BlockRun&);
+void arc_centre_mode(const CodeRule&, BlockRun&);
+void feed_mode(const CodeRule&, BlockRun&);
+void path_mode(const CodeRule&, BlockRun&);
+void retract_mode(const CodeRule&, BlockRun&);
+void radius_comp_off(const CodeRule&, BlockRun&);
+void radius_comp_on(const CodeRule&, BlockRun&);
+void dwell(const CodeRule&, BlockRun&);
+// offsets.cpp
+void set_data(const CodeRule&, BlockRun&);
+void machine_coordinates(const CodeRule&, BlockRun&);
+void go_home(const CodeRule&, BlockRun&);
+void store_home(const CodeRule&, BlockRun&);
+void length_offset(const CodeRule&, BlockRun&);
+void work_system(const CodeRule&, BlockRun&);
+void local_offset(const CodeRule&, BlockRun&);
+void g92(const CodeRule&, BlockRun&);
+// spindle.cpp
+void spindle_mode(const CodeRule&, BlockRun&);
+void spindle_turn(const CodeRule&, BlockRun&);
+void spindle_orient(const CodeRule&, BlockRun&);
+// tool_change.cpp
+void change_tool(const CodeRule&, BlockRun&);
+void set_tool_number(const CodeRule&, BlockRun&);
+// io.cpp
+void coolant(const CodeRule&, BlockRun&);
+void override_switch(const CodeRule&, BlockRun&);
+void digital_output(const CodeRule&, BlockRun&);
+void analog_output(const CodeRule&, BlockRun&);
+void wait_input(const CodeRule&, BlockRun&);
+void user_code(const CodeRule&, BlockRun&);
+// program.cpp
+void program_stop(const CodeRule&, BlockRun&);
+void program_end(const CodeRule&, BlockRun&);
+void call_fanuc(const CodeRule&, BlockRun&);
+void return_fanuc(const CodeRule&, BlockRun&);
+void modal_stack(const CodeRule&, BlockRun&);
+
+// ---- words with a phase of their own
+void feed_word(BlockRun&);
+void speed_word(BlockRun&);
+void tool_word(BlockRun&);
+
+// ---- shared by several files
+/// The spindle of the `$` word: its index, or `otherwise` without the word. An error when the
+/// machine has no such spindle.
+std::optional<int> spindle_of(BlockRun& run, int otherwise);
+/// The tip position that the axis words mean, or nothing with an error.
+std::optional<AxisValues> target_of(BlockRun& run);
+/// True when a feed is set for the move; else the error is recorded.
+bool feed_is_set(BlockRun& run, const CodeRule& rule);
+/// Makes `next`'s settings of work system `system` the ones in force, from the parameters.
+void load_work_system(BlockRun& run, int system);
+/// Sets the length offset in force; the controlled point stays where it is.
+void use_length_offset(BlockRun& run, const AxisValues& offset);
+/// Emits the commands that bring a listener from `from` to `to` (M72 and returns of M73).
+void restore_state(BlockRun& run, const ModalState& saved);
+
+}  // namespace aircut::interp

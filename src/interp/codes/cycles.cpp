@@ -1,0 +1,335 @@
+// Canned cycles G73 G74 G81-G86 G89. Coordinates here: a and b in the plane, c along its normal,
+// all program coordinates in mm.
+//
+//   initial ──●───────────── ○     rapid to the hole at the present level
+//             ┊              ┊
+//   R       ──┴──►hole       ▲     rapid down to R, then the cycle's own moves,
+//                 │          ┊     back to R (G99) or to the initial level (G98)
+//   Z       ──────▼──────────┘
+//
+// The initial level is the one where the group of cycles began.
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "interp/codes/codes.h"
+
+namespace aircut::interp {
+namespace {
+
+constexpr int max_moves = 100'000;  // of one line, so that it can't fill the memory
+
+class Cycle {
+ public:
+  Cycle(const CodeRule& rule, BlockRun& run)
+      : rule_(rule), run_(run), state_(run.state), axes_(axes_of(run.state.plane)) {}
+
+  void execute();
+
+ private:
+  bool allowed();
+  bool read_words();
+  bool need(char letter, bool same, bool& sticky, double& value, const char* what);
+  bool spindle_fits();
+  bool count_moves(int repeats);
+  void repeat(int number, int repeats);
+  void body();
+  void drill(double depth) { feed(depth, "drill"); }
+  void peck();
+  void tap();
+  void bore_and_stop();
+
+  void move(bool is_rapid, double a, double b, double c, const char* what);
+  void rapid_to(double c, const char* what) { move(true, a_, b_, c, what); }
+  void feed(double c, const char* what) { move(false, a_, b_, c, what); }
+  void turn(canon::SpindleTurn turn);
+
+  const CodeRule& rule_;
+  BlockRun& run_;
+  ModalState& state_;
+  PlaneAxes axes_;
+  double a_ = 0, b_ = 0, c_ = 0;  // where the tip is
+  double r_ = 0, z_ = 0, clear_ = 0;
+  int spindle_ = 0;
+  std::string suffix_;
+};
+
+bool Cycle::allowed() {
+  if (state_.comp.side != CompSide::off)
+    run_.error("comp_illegal", rule_,
+               "canned cycles can't be used while radius compensation is on; give G40 before");
+  else if (state_.feed_mode == canon::FeedMode::inverse_time)
+    run_.error("cycle_error", rule_, "canned cycles can't be used with G93; give G94 or G95");
+  else if (run_.machine_coordinates)
+    run_.error("g53_error", rule_, "canned cycles can't be used with G53");
+  else if (state_.feed <= 0)
+    run_.error("zero_feed", rule_, name_of(rule_) + " with feed 0; give an F word above 0 first");
+  const bool uvw = state_.plane >= canon::Plane::uv;
+  for (const Axis axis : all_axes) {
+    const bool linear = uvw ? axis >= Axis::u : axis <= Axis::z;
+    if (run_.has(letter(axis)) && !linear)
+      run_.error("cycle_error", letter(axis),
+                 std::string(1, letter(axis)) +
+                     " can't be moved by a canned cycle in this plane; " +
+                     "move it on a line before");
+  }
+  return run_.ok();
+}
+
+// A word of a cycle: given, or kept from the line before when that was the same cycle.
+bool Cycle::need(char letter, bool same, bool& sticky, double& value, const char* what) {
+  if (const auto number = run_.number(letter)) {
+    value = *number;
+    sticky = true;
+  } else if (!same || !sticky) {
+    run_.error("word_missing", rule_,
+               name_of(rule_) + " needs " + std::string(1, letter) + ": " + what);
+    return false;
+  }
+  return true;
+}
+
+bool Cycle::read_words() {
+  CycleState& cycle = state_.cycle;
+  const bool same = cycle.code == rule_.code;
+  if (!same) {
+    const double initial = cycle.code == 0 ? c_ : cycle.initial;
+    cycle = CycleState{};
+    cycle.initial = initial;
+    cycle.code = rule_.code;
+  }
+  const char normal = letter(axes_.normal);
+  if (!run_.has('R') && !same) {
+    run_.error("word_missing", rule_, name_of(rule_) + " needs R: the level from which it feeds");
+    return false;
+  }
+  if (!run_.has(normal) && !same) {
+    run_.error("word_missing", rule_,
+               name_of(rule_) + " needs " + std::string(1, normal) + ": the bottom of the hole");
+    return false;
+  }
+  if (run_.has('R')) cycle.r = run_.length('R');
+  if (run_.has(normal)) cycle.z = *run_.axis(axes_.normal);
+  const double unit = state_.unit_mm();
+  switch (rule_.code) {
+    case 820:
+    case 860:
+    case 890:
+      if (!need('P', same, cycle.has_p, cycle.p, "the dwell at the bottom in seconds"))
+        return false;
+      break;
+    case 740:
+    case 840:
+      cycle.p = run_.number_or('P', same ? cycle.p : 0);
+      break;
+    case 730:
+    case 830:
+      if (run_.has('Q') && *run_.number('Q') <= 0) {
+        run_.error("word_value", 'Q', "Q, the depth of a peck, must be above 0");
+        return false;
+      }
+      cycle.q /= unit;
+      if (!need('Q', same, cycle.has_q, cycle.q, "the depth of a peck")) return false;
+      cycle.q *= unit;
+      if (run_.has('D') && *run_.number('D') < 0) {
+        run_.error("word_value", 'D', "D, the way back of a peck, can't be negative");
+        return false;
+      }
+      if (run_.has('D')) {
+        cycle.d = run_.length('D');
+        cycle.has_d = true;
+      }
+      break;
+    default:
+      break;
+  }
+  if (cycle.p < 0) {
+    run_.error("dwell_time", 'P', "the dwell P of a cycle must be 0 or more seconds");
+    return false;
+  }
+  return true;
+}
+
+bool Cycle::spindle_fits() {
+  const auto spindle = spindle_of(run_, 0);
+  if (!spindle) return false;
+  spindle_ = *spindle;
+  const canon::SpindleTurn turn = state_.spindles[static_cast<std::size_t>(spindle_)].turn;
+  if (rule_.code == 840 && turn != canon::SpindleTurn::clockwise) {
+    run_.error("spindle_stopped", rule_, "G84 needs the spindle turning clockwise; give M3 before");
+    return false;
+  }
+  if (rule_.code == 740 && turn != canon::SpindleTurn::counterclockwise) {
+    run_.error("spindle_stopped", rule_,
+               "G74 needs the spindle turning counter-clockwise; give M4 before");
+    return false;
+  }
+  if (rule_.code == 860 && turn == canon::SpindleTurn::stop) {
+    run_.error("spindle_stopped", rule_, "G86 needs a turning spindle; give M3 or M4 before");
+    return false;
+  }
+  return true;
+}
+
+bool Cycle::count_moves(int repeats) {
+  double per_hole = 8;
+  if (rule_.code == 730 || rule_.code == 830) per_hole += 3 * (r_ - z_) / state_.cycle.q;
+  if (per_hole * repeats <= max_moves) return true;
+  run_.error("limit_reached", rule_,
+             "this line would make more than 100000 moves; use a smaller L or a larger Q");
+  return false;
+}
+
+void Cycle::execute() {
+  const AxisValues start = to_program(state_, state_.tip);
+  a_ = start[axes_.first];
+  b_ = start[axes_.second];
+  c_ = start[axes_.normal];
+  if (!allowed()) return;
+  if (!run_.has_axis_words())
+    return run_.error("axis_word_missing", rule_, name_of(rule_) + " needs at least one axis word");
+  int repeats = 1;
+  if (run_.has('L')) {
+    const auto l = run_.integer('L', 1, 1'000'000'000);
+    if (!l) return;
+    repeats = *l;
+  }
+  if (!read_words() || !spindle_fits()) return;
+  const CycleState& cycle = state_.cycle;
+  r_ = state_.incremental ? cycle.initial + cycle.r : cycle.r;
+  z_ = state_.incremental ? r_ + cycle.z : cycle.z;
+  if (r_ < z_)
+    return run_.error("cycle_error", run_.has('R') ? run_.place('R') : run_.place(rule_),
+                      "the bottom of the hole (" + fixed(z_, 4) + " mm) is above R (" +
+                          fixed(r_, 4) + " mm); R must be above it");
+  if (!count_moves(repeats)) return;
+  clear_ = state_.retract_to_r ? r_ : std::max(r_, cycle.initial);
+  if (cycle.initial < r_) rapid_to(r_, "rise to R");
+  const bool exact = state_.path_mode == canon::PathMode::exact_path;
+  if (!exact) run_.emit(canon::SetPathMode{canon::PathMode::exact_path, 0});
+  for (int i = 1; i <= repeats; ++i) repeat(i, repeats);
+  if (!exact) run_.emit(canon::SetPathMode{state_.path_mode, state_.path_tolerance});
+  if (state_.path_mode == canon::PathMode::continuous)
+    run_.emit(canon::SetNaiveCam{state_.naive_tolerance});
+}
+
+void Cycle::repeat(int number, int repeats) {
+  suffix_ =
+      repeats > 1 ? ", hole " + std::to_string(number) + " of " + std::to_string(repeats) : "";
+  double a = a_, b = b_;
+  if (const auto value = run_.axis(axes_.first)) a = state_.incremental ? a_ + *value : *value;
+  if (const auto value = run_.axis(axes_.second)) b = state_.incremental ? b_ + *value : *value;
+  move(true, a, b, c_ < r_ ? r_ : c_, "to the hole");
+  if (c_ > r_) rapid_to(r_, "down to R");
+  body();
+}
+
+void Cycle::body() {
+  switch (rule_.code) {
+    case 730:
+    case 830:
+      return peck();
+    case 740:
+    case 840:
+      return tap();
+    case 860:
+      return bore_and_stop();
+    case 820:
+      drill(z_);
+      run_.emit(canon::Dwell{state_.cycle.p}, name_of(rule_) + " dwell" + suffix_);
+      return rapid_to(clear_, "retract");
+    case 850:
+      drill(z_);
+      feed(r_, "back to R");
+      return rapid_to(clear_, "retract");
+    case 890:
+      drill(z_);
+      run_.emit(canon::Dwell{state_.cycle.p}, name_of(rule_) + " dwell" + suffix_);
+      return feed(clear_, "retract");
+    default:
+      drill(z_);
+      return rapid_to(clear_, "retract");
+  }
+}
+
+// G73 breaks the chip by a short way back, G83 returns to R and comes down again to just above the
+// depth reached.
+void Cycle::peck() {
+  const Options& options = run_.session.options;
+  const bool full = rule_.code == 830;
+  double clearance = full ? options.g83_clearance : options.g73_clearance;
+  if (clearance <= 0) clearance = 0.254;
+  if (state_.cycle.has_d) clearance = state_.cycle.d;
+  const double q = state_.cycle.q;
+  int number = 1;
+  for (double depth = r_ - q; depth > z_; depth = r_ - ++number * q) {
+    feed(depth, "peck");
+    if (full) rapid_to(r_, "out of the hole");
+    rapid_to(depth + clearance, full ? "back down" : "chip break");
+  }
+  feed(z_, "peck");
+  rapid_to(clear_, "retract");
+}
+
+void Cycle::turn(canon::SpindleTurn turn) {
+  canon::TurnSpindle command;
+  command.spindle = spindle_;
+  command.turn = turn;
+  run_.emit(command, name_of(rule_) + suffix_);
+}
+
+void Cycle::tap() {
+  using Kind = canon::Override::Kind;
+  using Turn = canon::SpindleTurn;
+  const auto& spindle = state_.spindles[static_cast<std::size_t>(spindle_)];
+  const Turn forward = rule_.code == 840 ? Turn::clockwise : Turn::counterclockwise;
+  const Turn back = rule_.code == 840 ? Turn::counterclockwise : Turn::clockwise;
+  run_.emit(canon::Override{Kind::feed, false, 0});
+  run_.emit(canon::Override{Kind::speed, false, spindle_});
+  feed(z_, "tap");
+  turn(Turn::stop);
+  turn(back);
+  run_.emit(canon::Dwell{state_.cycle.p}, name_of(rule_) + " dwell" + suffix_);
+  feed(clear_, "back out");
+  turn(Turn::stop);
+  turn(forward);
+  if (state_.feed_override) run_.emit(canon::Override{Kind::feed, true, 0});
+  if (spindle.override_on) run_.emit(canon::Override{Kind::speed, true, spindle_});
+}
+
+void Cycle::bore_and_stop() {
+  const canon::SpindleTurn before = state_.spindles[static_cast<std::size_t>(spindle_)].turn;
+  drill(z_);
+  run_.emit(canon::Dwell{state_.cycle.p}, name_of(rule_) + " dwell" + suffix_);
+  turn(canon::SpindleTurn::stop);
+  rapid_to(clear_, "retract");
+  turn(before);
+}
+
+void Cycle::move(bool is_rapid, double a, double b, double c, const char* what) {
+  AxisValues program = to_program(state_, state_.tip);
+  program[axes_.first] = a;
+  program[axes_.second] = b;
+  program[axes_.normal] = c;
+  const AxisValues start = state_.tip;
+  state_.tip = to_tip(state_, program);
+  for (const Axis axis : all_axes) {  // others stay to the last bit
+    const bool moves = axis == axes_.first || axis == axes_.second || axis == axes_.normal ||
+                       (state_.rotation != 0 && axis <= Axis::y);
+    if (!moves) state_.tip[axis] = start[axis];
+  }
+  a_ = a;
+  b_ = b;
+  c_ = c;
+  std::string expanded = name_of(rule_) + " " + what + suffix_;
+  if (is_rapid)
+    run_.emit(canon::Rapid{state_.tip}, std::move(expanded));
+  else
+    run_.emit(canon::LinearFeed{state_.tip}, std::move(expanded));
+}
+
+}  // namespace
+
+void canned_cycle(const CodeRule& rule, BlockRun& run) { Cycle(rule, run).execute(); }
+
+}  // namespace aircut::interp

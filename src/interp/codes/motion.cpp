@@ -1,0 +1,195 @@
+// G0 G1, G80, the synchronised moves G33 G33.1 and probing G38.x; where axis words lead.
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "interp/codes/codes.h"
+
+namespace aircut::interp {
+namespace {
+
+// @ is the distance from the origin of the program, ^ the angle (interp.md 8). A missing part keeps
+// that of the current point; with G91 both are added to it.
+bool apply_polar(BlockRun& run, AxisValues& program) {
+  const ModalState& state = run.state;
+  const char first = run.has('@') ? '@' : '^';
+  if (state.plane != canon::Plane::xy) {
+    run.error("polar_error", first, "polar words (@ ^) need the XY plane; give G17 before");
+    return false;
+  }
+  if (run.has('X') || run.has('Y')) {
+    run.error("polar_error", run.has('X') ? 'X' : 'Y',
+              "X and Y can't be given together with polar words (@ ^); use one of both");
+    return false;
+  }
+  if (run.machine_coordinates) {
+    run.error("polar_error", first, "polar words (@ ^) can't be used with G53; give X and Y");
+    return false;
+  }
+  const double x = program[Axis::x], y = program[Axis::y];
+  double radius = std::hypot(x, y);
+  if (radius == 0 && (!run.has('^') || state.incremental)) {
+    run.error("polar_error", first, "at the origin the angle is not defined; give ^ with G90");
+    return false;
+  }
+  double angle = std::atan2(y, x);
+  if (const auto r = run.number('@'))
+    radius = *r * state.unit_mm() + (state.incremental ? radius : 0);
+  if (const auto a = run.number('^'))
+    angle = *a * radian_per_degree + (state.incremental ? angle : 0);
+  program[Axis::x] = radius * std::cos(angle);
+  program[Axis::y] = radius * std::sin(angle);
+  return true;
+}
+
+std::optional<AxisValues> machine_target(BlockRun& run) {
+  const ModalState& state = run.state;
+  AxisValues tip = state.tip;
+  for (const Axis axis : all_axes)
+    if (const auto value = run.axis(axis)) tip[axis] = *value - state.length_offset[axis];
+  return tip;
+}
+
+bool spindle_turns(BlockRun& run, const CodeRule& rule, int spindle) {
+  if (run.state.spindles[static_cast<std::size_t>(spindle)].turn != canon::SpindleTurn::stop)
+    return true;
+  run.error("spindle_stopped", rule,
+            name_of(rule) + " needs a turning spindle; give M3 or M4 before");
+  return false;
+}
+
+}  // namespace
+
+std::optional<AxisValues> target_of(BlockRun& run) {
+  const ModalState& state = run.state;
+  if (run.machine_coordinates && run.motion_rule && !run.has('@') && !run.has('^'))
+    return machine_target(run);
+  const AxisValues& start = state.programmed_tip();
+  const bool polar = run.has('@') || run.has('^');
+  if (state.rotation == 0 && !polar) {
+    AxisValues tip = start;
+    for (const Axis axis : all_axes) {
+      const auto value = run.axis(axis);
+      if (!value) continue;
+      tip[axis] = state.incremental ? tip[axis] + *value
+                                    : *value + state.g92[axis] + state.work_offset[axis];
+    }
+    return tip;
+  }
+  AxisValues program = to_program(state, start);
+  for (const Axis axis : all_axes)
+    if (const auto value = run.axis(axis))
+      program[axis] = state.incremental ? program[axis] + *value : *value;
+  if (polar && !apply_polar(run, program)) return std::nullopt;
+  AxisValues tip = to_tip(state, program);
+  // What no word named stays exactly where it is.
+  const bool turned = run.has('X') || run.has('Y') || polar;
+  for (const Axis axis : all_axes) {
+    const bool in_plane = axis == Axis::x || axis == Axis::y;
+    if (in_plane ? !turned : !run.has(letter(axis))) tip[axis] = start[axis];
+  }
+  return tip;
+}
+
+bool feed_is_set(BlockRun& run, const CodeRule& rule) {
+  if (run.state.feed_mode == canon::FeedMode::inverse_time) {
+    if (run.feed_given && run.state.feed > 0) return true;
+    if (run.feed_given) {
+      run.error("zero_feed", 'F', "in G93 F must be above 0: it is 1 / minutes of the move");
+      return false;
+    }
+    run.error("feed_missing", rule,
+              "in G93 every " + name_of(rule) + " line needs an F word of its own");
+    return false;
+  }
+  if (run.state.feed > 0) return true;
+  run.error("zero_feed", rule, name_of(rule) + " with feed 0; give an F word above 0 first");
+  return false;
+}
+
+void rapid(const CodeRule&, BlockRun& run) {
+  const auto end = target_of(run);
+  if (!end) return;
+  if (run.state.comp.side != CompSide::off || run.state.comp.leaving)
+    return run.session.compensator.move(run, {PlannedMove::Kind::rapid, *end, {}});
+  run.emit(canon::Rapid{*end});
+  run.state.tip = *end;
+}
+
+void linear_feed(const CodeRule& rule, BlockRun& run) {
+  if (!feed_is_set(run, rule)) return;
+  const auto end = target_of(run);
+  if (!end) return;
+  if (run.state.comp.side != CompSide::off || run.state.comp.leaving)
+    return run.session.compensator.move(run, {PlannedMove::Kind::feed, *end, {}});
+  run.emit(canon::LinearFeed{*end});
+  run.state.tip = *end;
+}
+
+void cancel_motion(const CodeRule&, BlockRun&) {}
+
+void thread(const CodeRule& rule, BlockRun& run) {
+  if (!run.has('K'))
+    return run.error("word_missing", rule, "G33 needs K: the distance per revolution");
+  const auto spindle = spindle_of(run, 0);
+  if (!spindle || !spindle_turns(run, rule, *spindle)) return;
+  if (run.has('F'))
+    return run.error("word_unused", 'F', "G33 takes its feed from K and the spindle; leave F out");
+  const auto end = target_of(run);
+  if (!end) return;
+  canon::SyncFeed move;
+  move.end = *end;
+  move.per_revolution = run.length('K');
+  move.spindle = *spindle;
+  run.emit(std::move(move));
+  run.state.tip = *end;
+}
+
+// The position after rigid tapping is where it began.
+void rigid_tap(const CodeRule& rule, BlockRun& run) {
+  if (!run.has('K'))
+    return run.error("word_missing", rule, "G33.1 needs K: the distance per revolution");
+  const auto spindle = spindle_of(run, 0);
+  if (!spindle || !spindle_turns(run, rule, *spindle)) return;
+  if (run.has('F'))
+    return run.error("word_unused", 'F',
+                     "G33.1 takes its feed from K and the spindle; leave F out");
+  const double factor = run.number_or('I', 1);
+  if (factor < 1)
+    return run.error("word_value", 'I', "I, the speed factor of the way back, must be 1 or more");
+  const auto end = target_of(run);
+  if (!end) return;
+  canon::SyncFeed move;
+  move.end = *end;
+  move.per_revolution = run.length('K');
+  move.rigid_tap = true;
+  move.return_factor = factor;
+  move.spindle = *spindle;
+  run.emit(std::move(move));
+}
+
+void probe(const CodeRule& rule, BlockRun& run) {
+  if (!run.has_axis_words())
+    return run.error("axis_word_missing", rule, name_of(rule) + " needs at least one axis word");
+  if (run.state.feed_mode == canon::FeedMode::per_revolution ||
+      run.state.feed_mode == canon::FeedMode::inverse_time)
+    return run.error("probe_error", rule, "probing needs feed per minute; give G94 and F before");
+  if (!feed_is_set(run, rule)) return;
+  const auto end = target_of(run);
+  if (!end) return;
+  const bool must_hit = rule.code == 382 || rule.code == 384;
+  double travel = 0;
+  for (const Axis axis : all_axes)
+    travel = std::max(travel, std::fabs((*end)[axis] - run.state.tip[axis]));
+  if (must_hit && travel < 1e-9)
+    return run.error("probe_error", rule,
+                     "the end of the probing move is the current point; give another end point");
+  canon::Probe move;
+  move.end = *end;
+  move.away = rule.code >= 384;
+  move.error_if_missed = must_hit;
+  run.emit(move);
+  run.state.tip = *end;
+}
+
+}  // namespace aircut::interp

@@ -1,0 +1,136 @@
+// G5 (cubic), G5.1 (quadratic) and G5.2 … G5.3 (NURBS), XY plane only.
+// A Bezier curve is a NURBS with as many control points as its order and weights 1.
+#include "interp/codes/codes.h"
+
+namespace aircut::interp {
+namespace {
+
+constexpr std::uint32_t max_points = 100'000;
+
+bool allowed(BlockRun& run, const CodeRule& rule) {
+  if (run.state.comp.side != CompSide::off) {
+    run.error("comp_illegal", rule, "splines can't be used while radius compensation is on");
+    return false;
+  }
+  if (run.state.plane != canon::Plane::xy) {
+    run.error("spline_error", rule, "splines need the XY plane; give G17 before");
+    return false;
+  }
+  for (const Axis axis : all_axes) {
+    if (axis <= Axis::y || !run.has(letter(axis))) continue;
+    run.error("spline_error", letter(axis),
+              "a spline moves X and Y only; move the other axes on another line");
+    return false;
+  }
+  return feed_is_set(run, rule);
+}
+
+// The tip position of the current program point moved by (x, y) in program axes.
+canon::SplineFeed::Point shifted(const BlockRun& run, const AxisValues& from, double x, double y,
+                                 double weight = 1) {
+  AxisValues program = to_program(run.state, from);
+  program[Axis::x] += x;
+  program[Axis::y] += y;
+  const AxisValues tip = to_tip(run.state, program);
+  return {tip[Axis::x], tip[Axis::y], weight};
+}
+
+canon::SplineFeed::Point at(const AxisValues& tip, double weight = 1) {
+  return {tip[Axis::x], tip[Axis::y], weight};
+}
+
+}  // namespace
+
+void cubic_spline(const CodeRule& rule, BlockRun& run) {
+  if (!allowed(run, rule)) return;
+  if (!run.has('P') || !run.has('Q'))
+    return run.error("spline_error", rule,
+                     "G5 needs P and Q: the second control point, seen from the end");
+  if (run.has('I') != run.has('J'))
+    return run.error("spline_error", run.has('I') ? 'I' : 'J',
+                     "G5 needs both I and J, or none of them");
+  SplineMemory& memory = run.state.spline;
+  double i = run.length('I'), j = run.length('J');
+  if (!run.has('I') && memory.valid) {
+    i = memory.dx;
+    j = memory.dy;
+  }
+  const auto end = target_of(run);
+  if (!end) return;
+  const double p = run.length('P'), q = run.length('Q');
+  canon::SplineFeed curve;
+  curve.order = 4;
+  curve.points = {at(run.state.tip), shifted(run, run.state.tip, i, j), shifted(run, *end, p, q),
+                  at(*end)};
+  run.emit(std::move(curve));
+  run.state.tip = *end;
+  memory = {true, -p, -q};
+}
+
+void quadratic_spline(const CodeRule& rule, BlockRun& run) {
+  if (!allowed(run, rule)) return;
+  if (!run.has('I') || !run.has('J'))
+    return run.error("spline_error", rule,
+                     "G5.1 needs I and J: the control point, seen from the start");
+  if (run.number_or('I', 0) == 0 && run.number_or('J', 0) == 0)
+    return run.error("spline_error", 'I', "I and J of G5.1 can't both be 0");
+  const auto end = target_of(run);
+  if (!end) return;
+  canon::SplineFeed curve;
+  curve.order = 3;
+  curve.points = {at(run.state.tip), shifted(run, run.state.tip, run.length('I'), run.length('J')),
+                  at(*end)};
+  run.emit(std::move(curve));
+  run.state.tip = *end;
+}
+
+// Collects control points; the current point is the first one.
+void nurbs_point(const CodeRule& rule, BlockRun& run) {
+  if (!allowed(run, rule)) return;
+  ModalState& state = run.state;
+  auto& points = run.session.nurbs;
+  const double weight = run.number_or('P', 1);
+  if (weight <= 0)
+    return run.error("spline_error", 'P', "P, the weight of a control point, must be above 0");
+  if (state.nurbs_points == 0) {
+    points.clear();
+    state.nurbs_order = 3;
+    if (run.has('L')) {
+      const auto order = run.integer('L', 2, 20, "spline_error");
+      if (!order) return;
+      state.nurbs_order = *order;
+    }
+    points.push_back(at(state.tip, weight));
+    state.nurbs_points = 1;
+    if (!run.has('X') && !run.has('Y')) return;
+  } else if (!run.has('P')) {
+    return run.error("spline_error", rule,
+                     "every control point of a NURBS needs P: its weight above 0");
+  } else if (!run.has('X') && !run.has('Y')) {
+    return run.error("axis_word_missing", rule, "a control point needs X or Y");
+  }
+  if (state.nurbs_points >= max_points)
+    return run.error("limit_reached", rule, "more than 100000 control points in one NURBS");
+  const auto end = target_of(run);
+  if (!end) return;
+  points.push_back(at(*end, weight));
+  ++state.nurbs_points;
+  state.tip = *end;
+}
+
+void nurbs_end(const CodeRule& rule, BlockRun& run) {
+  ModalState& state = run.state;
+  if (state.nurbs_points == 0)
+    return run.error("spline_error", rule, "G5.3 ends a NURBS; begin it with G5.2");
+  if (state.nurbs_points < static_cast<std::uint32_t>(state.nurbs_order))
+    return run.error("spline_error", rule,
+                     "a NURBS needs at least as many control points as its order L");
+  canon::SplineFeed curve;
+  curve.order = state.nurbs_order;
+  curve.points.assign(run.session.nurbs.begin(), run.session.nurbs.begin() + state.nurbs_points);
+  state.nurbs_points = 0;
+  state.motion = 800;
+  run.emit(std::move(curve));
+}
+
+}  // namespace aircut::interp

@@ -1,0 +1,263 @@
+// A block's words: values first, then the checks that the table gives for nothing (clashes in a
+// group, axis words, words that nobody uses), then the codes in the order of their phases.
+#include "base/text.h"
+#include "interp/codes/codes.h"
+#include "interp/impl.h"
+
+namespace aircut::interp {
+namespace {
+
+constexpr std::uint32_t bit(char letter) { return 1u << letter_index(letter); }
+constexpr std::uint32_t axis_letters = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') |
+                                       bit('C') | bit('U') | bit('V') | bit('W');
+constexpr std::uint32_t polar_letters = bit('@') | bit('^');
+
+std::uint32_t letters_of(const char* words) {
+  std::uint32_t letters = 0;
+  for (; *words; ++words) letters |= bit(*words);
+  return letters;
+}
+
+bool is_cycle(const CodeRule& rule) {
+  return rule.group == ModalGroup::motion && rule.code >= 730 && rule.code <= 890 &&
+         rule.code != 760 && rule.code != 800;
+}
+
+}  // namespace
+
+void BlockExecutor::execute(std::string_view line) {
+  if (!evaluate() || !settings()) return;
+  if (block_.comment) {
+    const Comment& comment = *block_.comment;
+    comment_action(line.substr(comment.text_begin, comment.text_length), comment.place, run_);
+    if (!run_.ok()) return;
+  }
+  if (block_.words.empty()) return;
+  if (!collect() || !check_axes() || !find_motion() || !check_words()) return;
+  for (std::size_t i = 0; i < count_ && run_.ok(); ++i) perform(items_[i]);
+}
+
+// Words and settings read the parameters as they are before the line.
+bool BlockExecutor::evaluate() {
+  if (!block_.has_expressions) return true;
+  std::optional<Fault> fault;
+  for (Word& word : block_.words) {
+    if (word.text.constant()) continue;
+    const auto value = interp::evaluate(word.text, block_.code, run_.session.parameters, fault);
+    if (!value) {
+      run_.fault_ = fault;
+      return false;
+    }
+    word.number = *value;
+    if (word.letter == 'G' || word.letter == 'M')
+      word.rule = run_.session.table.find(word.letter, *value);
+  }
+  return true;
+}
+
+bool BlockExecutor::settings() {
+  if (block_.settings.empty()) return true;
+  Parameters& parameters = run_.session.parameters;
+  std::vector<std::pair<int, double>> numbered;
+  std::vector<std::pair<std::int32_t, double>> named;
+  std::optional<Fault> fault;
+  for (const Setting& setting : block_.settings) {
+    const auto value = interp::evaluate(setting.value, block_.code, parameters, fault);
+    if (!value) {
+      run_.fault_ = fault;
+      return false;
+    }
+    if (setting.name >= 0) {
+      if (parameters.read_only_name(setting.name)) {
+        run_.error("parameter_read_only", setting.place,
+                   "#<" + printable(parameters.name_of(setting.name)) +
+                       "> can't be set; use a name of your own");
+        return false;
+      }
+      named.emplace_back(setting.name, *value);
+      continue;
+    }
+    const auto target = interp::evaluate(setting.target, block_.code, parameters, fault);
+    if (!target) {
+      run_.fault_ = fault;
+      return false;
+    }
+    const auto index = as_integer(*target);
+    if (!index || !Parameters::in_range(*index)) {
+      run_.error("parameter_range", setting.place,
+                 "there is no parameter #" + shortest(*target) + "; numbers go from 1 to " +
+                     std::to_string(number::last));
+      return false;
+    }
+    if (Parameters::read_only(*index)) {
+      run_.error(
+          "parameter_read_only", setting.place,
+          "#" + std::to_string(*index) + " follows from the machine's state and can't be set");
+      return false;
+    }
+    numbered.emplace_back(*index, *value);
+  }
+  for (const auto& [index, value] : numbered) parameters.write(index, value);
+  for (const auto& [name, value] : named) parameters.write_named(name, value);
+  return true;
+}
+
+void BlockExecutor::add(Phase phase, const CodeRule* rule, char letter) {
+  std::size_t at = count_++;
+  for (; at > 0 && items_[at - 1].phase > phase; --at) items_[at] = items_[at - 1];
+  items_[at] = {phase, rule, letter};
+}
+
+// Finds the rows of the codes, clashes in a group, and codes that are not known.
+bool BlockExecutor::collect() {
+  std::uint32_t groups = 0;
+  for (const Word& word : block_.words) {
+    letters_ |= bit(word.letter);
+    switch (word.letter) {
+      case 'F':
+        add(Phase::feed, nullptr, 'F');
+        continue;
+      case 'S':
+        add(Phase::speed, nullptr, 'S');
+        continue;
+      case 'T':
+        add(Phase::tool_select, nullptr, 'T');
+        continue;
+      case 'G':
+      case 'M':
+        break;
+      default:
+        continue;
+    }
+    const CodeRule* rule = word.rule;
+    const std::string name = rule && rule->handler ? "" : word.letter + shortest(word.number);
+    if (!rule) {
+      run_.error("unknown_code", word.place,
+                 name + " is not a code of this control; check the number");
+      return false;
+    }
+    if (!rule->handler) {
+      run_.error("unsupported_code", word.place,
+                 name + " is known but not implemented here; this line can't be checked");
+      return false;
+    }
+    const std::uint32_t group = 1u << static_cast<unsigned>(rule->group);
+    if (groups & group) {
+      run_.error("modal_clash", word.place,
+                 name_of(*rule) + " stands on one line with another code of the same group (" +
+                     name_of(rule->group) + "); put it on a line of its own");
+      return false;
+    }
+    groups |= group;
+    if (rule->axes == AxisUse::own) own_ = rule;
+    if (rule->axes == AxisUse::optional) shared_ = rule;
+    if (rule->group == ModalGroup::motion) run_.motion_rule = rule;
+    add(rule->phase, rule, word.letter);
+  }
+  polar_ = (letters_ & polar_letters) != 0;
+  run_.axis_words_ = (letters_ & (axis_letters | polar_letters)) != 0;
+  return true;
+}
+
+bool BlockExecutor::check_axes() {
+  if (!(letters_ & axis_letters)) return true;
+  const AxisSet present = run_.session.options.axes;
+  if (present.empty()) return true;
+  for (const Axis axis : all_axes) {
+    if (present.has(axis) || !run_.has(letter(axis))) continue;
+    std::string known;
+    for (const Axis other : all_axes)
+      if (present.has(other)) known += std::string(known.empty() ? "" : " ") + letter(other);
+    run_.error("axis_unknown", letter(axis),
+               std::string("this machine has no axis ") + letter(axis) + "; it has " + known);
+    return false;
+  }
+  return true;
+}
+
+// The motion code of the line: a given one, or the modal one when axis words are left for it.
+bool BlockExecutor::find_motion() {
+  const ModalState& state = run_.state;
+  const CodeRule* given = run_.motion_rule;
+  const bool axes = run_.axis_words_;
+  if (own_ && own_->group != ModalGroup::motion) {
+    if (given && given->code != 800) {
+      run_.error("axis_conflict", *own_,
+                 name_of(*own_) + " and " + name_of(*given) +
+                     " would both use the axis words of the line; put them on two lines");
+      return false;
+    }
+    if (polar_) {
+      run_.error("polar_error", run_.has('@') ? '@' : '^',
+                 "polar words (@ ^) can't be used with " + name_of(*own_) + "; give X and Y");
+      return false;
+    }
+    return true;
+  }
+  if (given) {
+    if (given->code == 800 && axes) {
+      run_.error("axis_word_unused", *given,
+                 "G80 ends canned cycles and takes no axis words; give G0 or G1 to move");
+      return false;
+    }
+    return true;
+  }
+  const bool centre = (letters_ & (bit('I') | bit('J') | bit('K'))) != 0;
+  const bool modal_arc = (state.motion == 20 || state.motion == 30) && centre;
+  if (shared_ || (!axes && !modal_arc)) return true;
+  const CodeRule* modal = state.motion == 800 ? nullptr : run_.session.table.find_g(state.motion);
+  if (!modal || !modal->handler) {
+    for (const Word& word : block_.words) {
+      if (!(bit(word.letter) & (axis_letters | polar_letters))) continue;
+      run_.error("axis_word_unused", word.place,
+                 std::string("no code on this line or before it uses ") + word.letter +
+                     "; give a motion code such as G0 or G1");
+      return false;
+    }
+    return true;
+  }
+  run_.motion_rule = modal;
+  add(modal->phase, modal, 0);
+  return true;
+}
+
+bool BlockExecutor::check_words() {
+  std::uint32_t used = bit('G') | bit('M') | bit('F') | bit('S') | bit('T') | axis_letters;
+  if (letters_ & bit('S')) used |= bit('$');
+  for (std::size_t i = 0; i < count_; ++i)
+    if (items_[i].rule) used |= letters_of(items_[i].rule->words);
+  if (run_.motion_rule && run_.motion_rule->axes == AxisUse::motion) used |= polar_letters;
+  if (!(letters_ & ~used)) return true;
+  for (const Word& word : block_.words) {
+    if (used & bit(word.letter)) continue;
+    run_.error("word_unused", word.place,
+               std::string("no code on this line uses the word ") + word.letter +
+                   "; remove it or add the code that it belongs to");
+    return false;
+  }
+  return true;
+}
+
+void BlockExecutor::perform(const Item& item) {
+  if (!item.rule) {
+    if (item.letter == 'F') return feed_word(run_);
+    if (item.letter == 'S') return speed_word(run_);
+    return tool_word(run_);
+  }
+  const CodeRule& rule = *item.rule;
+  if (rule.group == ModalGroup::motion && run_.state.nurbs_points > 0 && rule.code != 52) {
+    run_.error("spline_error", rule,
+               "only control points (G5.2 lines) may stand between G5.2 and G5.3");
+    return;
+  }
+  if (rule.group == ModalGroup::motion && !is_cycle(rule)) run_.state.cycle.code = 0;
+  rule.handler(rule, run_);
+  if (run_.ok() && rule.group == ModalGroup::motion) after_motion(rule);
+}
+
+void BlockExecutor::after_motion(const CodeRule& rule) {
+  run_.state.motion = rule.code;
+  if (rule.code != 50) run_.state.spline.valid = false;
+}
+
+}  // namespace aircut::interp

@@ -1,0 +1,223 @@
+// The evaluator: a stack of numbers, one instruction after the other. The parser limits bracket
+// depth to 64; a level holds at most five pending left operands (one per precedence) and one more
+// for atan, so the stack below can't overflow.
+#include "interp/expression.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "base/text.h"
+#include "interp/parameters.h"
+
+namespace aircut::interp {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+// EQ NE GE LE compare within this absolute band, GT and LT do not (as the reference).
+constexpr double equality_band = 1e-6;
+
+struct Machine {
+  Machine(const Parameters& p, std::optional<Fault>& f) : parameters(p), fault(f) {}
+
+  const Parameters& parameters;
+  std::optional<Fault>& fault;
+  std::array<double, 640> stack;  // not zeroed: the depth says what is in use
+  std::size_t depth = 0;
+
+  double pop() { return stack[--depth]; }
+  double& top() { return stack[depth - 1]; }
+  void push(double value) { stack[depth++] = value; }
+
+  bool fail(const Instruction& at, std::string message, const char* kind = "math_domain") {
+    fault = Fault{kind, at.place, std::move(message)};
+    return false;
+  }
+
+  bool read(const Instruction& at, int number) {
+    const auto value = parameters.read(number, at.place, fault);
+    if (!value) return false;
+    push(*value);
+    return true;
+  }
+
+  bool unary(const Instruction& at);
+  bool binary(const Instruction& at);
+  bool parameter(const Instruction& at);
+  bool step(const Instruction& at);
+};
+
+bool Machine::unary(const Instruction& at) {
+  double& x = top();
+  switch (at.op) {
+    case Op::negate:
+      x = -x;
+      return true;
+    case Op::abs:
+      x = std::fabs(x);
+      return true;
+    case Op::cos:
+      x = std::cos(x * degree);
+      return true;
+    case Op::sin:
+      x = std::sin(x * degree);
+      return true;
+    case Op::tan:
+      x = std::tan(x * degree);
+      return true;
+    case Op::exp:
+      x = std::exp(x);
+      return true;
+    case Op::fix:
+      x = std::floor(x);
+      return true;
+    case Op::fup:
+      x = std::ceil(x);
+      return true;
+    case Op::round:
+      x = std::round(x);
+      return true;
+    case Op::acos:
+    case Op::asin:
+      if (std::fabs(x) > 1)
+        return fail(at, "the argument must be from -1 to 1, this is " + shortest(x));
+      x = (at.op == Op::acos ? std::acos(x) : std::asin(x)) / degree;
+      return true;
+    case Op::ln:
+      if (x <= 0) return fail(at, "LN needs an argument above 0, this is " + shortest(x));
+      x = std::log(x);
+      return true;
+    case Op::sqrt:
+      if (x < 0) return fail(at, "SQRT needs an argument of 0 or more, this is " + shortest(x));
+      x = std::sqrt(x);
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Machine::binary(const Instruction& at) {
+  const double b = pop();
+  double& a = top();
+  const auto truth = [](bool yes) { return yes ? 1.0 : 0.0; };
+  switch (at.op) {
+    case Op::add:
+      a += b;
+      return true;
+    case Op::subtract:
+      a -= b;
+      return true;
+    case Op::multiply:
+      a *= b;
+      return true;
+    case Op::divide:
+      if (b == 0) return fail(at, "division by zero; the divisor must not be 0");
+      a /= b;
+      return true;
+    case Op::modulo: {
+      if (b == 0) return fail(at, "MOD by zero; the right side must not be 0");
+      double rest = std::fmod(a, b);
+      if (rest < 0) rest += std::fabs(b);
+      a = rest;
+      return true;
+    }
+    case Op::power:
+      if (a < 0 && b != std::floor(b))
+        return fail(at, "a negative number can't be raised to a power that is not an integer (" +
+                            shortest(a) + " ** " + shortest(b) + ")");
+      a = std::pow(a, b);
+      return true;
+    case Op::equal:
+      a = truth(std::fabs(a - b) < equality_band);
+      return true;
+    case Op::not_equal:
+      a = truth(std::fabs(a - b) >= equality_band);
+      return true;
+    case Op::greater:
+      a = truth(a > b);
+      return true;
+    case Op::less:
+      a = truth(a < b);
+      return true;
+    case Op::greater_equal:
+      a = truth(a >= b || std::fabs(a - b) < equality_band);
+      return true;
+    case Op::less_equal:
+      a = truth(a <= b || std::fabs(a - b) < equality_band);
+      return true;
+    case Op::and_:
+      a = truth(a != 0 && b != 0);
+      return true;
+    case Op::or_:
+      a = truth(a != 0 || b != 0);
+      return true;
+    case Op::xor_:
+      a = truth((a != 0) != (b != 0));
+      return true;
+    case Op::atan:
+      a = std::atan2(a, b) / degree;
+      return true;
+    default:
+      return false;
+  }
+}
+
+bool Machine::parameter(const Instruction& at) {
+  switch (at.op) {
+    case Op::read:
+      return read(at, at.id);
+    case Op::read_indirect: {
+      const double number = pop();
+      const auto index = as_integer(number);
+      if (!index)
+        return fail(at, "a parameter's number must be an integer, this is " + shortest(number),
+                    "parameter_range");
+      return read(at, *index);
+    }
+    case Op::exists:
+      top() = 1;
+      return true;
+    case Op::exists_named:
+      push(parameters.exists(at.id) ? 1 : 0);
+      return true;
+    default: {
+      const auto value = parameters.read_named(at.id, at.place, fault);
+      if (!value) return false;
+      push(*value);
+      return true;
+    }
+  }
+}
+
+bool Machine::step(const Instruction& at) {
+  if (at.op == Op::number) {
+    push(at.number);
+    return true;
+  }
+  const bool is_parameter = at.op >= Op::read && at.op <= Op::exists_named;
+  const bool is_binary = (at.op >= Op::power && at.op <= Op::xor_) || at.op == Op::atan;
+  const bool ok = is_parameter ? parameter(at) : is_binary ? binary(at) : unary(at);
+  if (!ok) return false;
+  if (!std::isfinite(top()))
+    return fail(at, "the result is not a finite number; keep it below 1e308");
+  return true;
+}
+
+}  // namespace
+
+std::optional<double> evaluate(const Value& value, const Code& code, const Parameters& parameters,
+                               std::optional<Fault>& fault) {
+  if (value.constant()) return value.number;
+  Machine machine(parameters, fault);
+  for (std::uint32_t i = 0; i < value.count; ++i)
+    if (!machine.step(code[value.first + i])) return std::nullopt;
+  return machine.pop();
+}
+
+std::optional<int> as_integer(double value) {
+  const double nearest = std::round(value);
+  if (std::fabs(value - nearest) > 1e-4 || std::fabs(nearest) > 1e9) return std::nullopt;
+  return static_cast<int>(nearest);
+}
+
+}  // namespace aircut::interp

@@ -1,0 +1,88 @@
+// Expressions, compiled when a line is read and evaluated when it is executed.
+// A Value is a constant or a run of instructions for a small stack machine (operands first).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace aircut::interp {
+
+class Parameters;
+
+/// A range of bytes relative to the begin of the line.
+struct Place {
+  std::uint32_t begin = 0;
+  std::uint32_t length = 0;
+};
+
+enum class Op : unsigned char {
+  number,         ///< push a constant
+  read,           ///< push the parameter whose number is in `id`
+  read_indirect,  ///< replace the number on top by that parameter
+  read_named,     ///< push the parameter with the name `id`
+  exists,         ///< 1 when the number on top is a valid parameter number
+  exists_named,   ///< 1 when the name `id` is defined
+  negate,
+  power,
+  multiply,
+  divide,
+  modulo,
+  add,
+  subtract,
+  equal,
+  not_equal,
+  greater,
+  greater_equal,
+  less,
+  less_equal,
+  and_,
+  or_,
+  xor_,
+  abs,
+  acos,
+  asin,
+  cos,
+  exp,
+  fix,
+  fup,
+  ln,
+  round,
+  sin,
+  sqrt,
+  tan,
+  atan,  ///< two operands: y, x
+};
+
+struct Instruction {
+  Op op = Op::number;
+  std::int32_t id = 0;
+  double number = 0;
+  Place place;  ///< for errors: the operator, function or parameter
+};
+using Code = std::vector<Instruction>;
+
+struct Value {
+  double number = 0;        ///< when count is 0
+  std::uint32_t first = 0;  ///< index of the first instruction
+  std::uint32_t count = 0;  ///< 0: a constant
+
+  bool constant() const { return count == 0; }
+};
+
+/// What is wrong at a place of the line.
+struct Fault {
+  const char* kind = "";
+  Place place;
+  std::string message;
+};
+
+/// The number, or nothing with `fault` filled in. Never NaN or infinity.
+std::optional<double> evaluate(const Value& value, const Code& code, const Parameters& parameters,
+                               std::optional<Fault>& fault);
+
+/// The integer that a value means (within 1e-4, as the reference), or nothing.
+std::optional<int> as_integer(double value);
+
+}  // namespace aircut::interp

@@ -1,0 +1,62 @@
+// The O-words of one file and how they belong together, found once by reading the file's O-lines
+// from top to bottom. Nothing else of the file is looked at.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "interp/block.h"
+
+namespace aircut::interp {
+
+struct FlowEntry {
+  std::uint64_t begin = 0;  ///< byte offset of the line
+  std::uint64_t after = 0;  ///< byte offset of the line behind it
+  std::uint32_t line = 0;
+  Keyword keyword = Keyword::none;
+  std::string label;
+  Place place;                ///< of the O-word in its line
+  int sub = -1;               ///< entry of the sub that it is in, -1 outside
+  int next = -1;              ///< if, elseif, else: the next branch or the endif
+  int partner = -1;           ///< opener: its end. End, break, continue: the opener
+  bool called_ahead = false;  ///< a sub that was called before its definition was passed
+  bool passed = false;        ///< a sub whose definition was passed
+  const char* problem_kind = nullptr;
+  std::string problem;  ///< what is wrong with it when it is reached
+};
+
+class Parameters;
+class CodeTable;
+
+class FlowIndex {
+ public:
+  FlowIndex(std::string_view text, std::uint64_t begin, bool block_delete, bool stops_at_percent,
+            Parameters& parameters, const CodeTable& table);
+
+  std::vector<FlowEntry> entries;
+
+  /// The entry of the line that begins there, or -1.
+  int at(std::uint64_t begin) const;
+  /// `oLABEL sub`, or -1.
+  int find_sub(std::string_view label) const;
+  /// Fanuc-style `OLABEL` behind `after`, else anywhere, or -1.
+  int find_fanuc(std::string_view label, std::uint64_t after) const;
+
+ private:
+  void connect();
+  void open(int at);
+  void close(int at);
+  void branch(int at);
+  void leave_loop(int at);
+  void problem(int at, const char* kind, std::string text);
+  void end_scope();
+
+  std::vector<int> open_;          ///< entries of the constructs that are open, innermost last
+  std::vector<std::string> used_;  ///< labels of the scope
+  int sub_ = -1;
+};
+
+}  // namespace aircut::interp

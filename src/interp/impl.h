@@ -1,0 +1,205 @@
+// The interpreter's inside: fetches lines, executes blocks, follows the O-words.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "interp/flow.h"
+#include "interp/interp.h"
+#include "interp/parser.h"
+#include "interp/run.h"
+
+namespace aircut::interp {
+
+/// One program text with what was found out about it.
+struct ProgramFile {
+  const SourceText* text = nullptr;
+  std::uint64_t begin = 0;  ///< behind a byte order mark
+  bool percent = false;     ///< starts and ends with `%`
+  std::unique_ptr<FlowIndex> flow;
+  std::unordered_map<std::uint64_t, std::unique_ptr<Block>> blocks;  ///< parsed lines of loops
+};
+
+struct Loop {
+  int entry = -1;  ///< while, do or repeat
+  std::uint64_t pass = 1;
+  std::uint64_t passes = 0;                ///< repeat: how many
+  std::shared_ptr<const CallFrame> frame;  ///< of pass `frame_pass`, made when somebody asks
+  std::uint64_t frame_pass = 0;
+};
+
+/// The main program, or one call.
+struct Frame {
+  ProgramFile* file = nullptr;
+  std::uint64_t at = 0;       ///< byte offset of the next line
+  std::uint32_t line = 0;     ///< number of the line before it
+  Block* last = nullptr;      ///< cached block that was executed last
+  int sub = -1;               ///< entry of the sub
+  bool fanuc = false;         ///< M98
+  std::uint64_t repeats = 1;  ///< M98 L: passes still to do with this one
+  std::vector<Loop> loops;
+  std::shared_ptr<const CallFrame> calls;
+  std::optional<ModalState> saved;  ///< M70, M73
+  bool restore_at_return = false;   ///< M73
+};
+
+class Interpreter::Impl final : public Site, private LiveValues {
+ public:
+  Impl(const SourceText& program, const tool::ToolTable& tools, const ParameterFile& file,
+       Options options, SourceReader reader, Diagnostics& diagnostics);
+
+  std::optional<canon::Command> next();
+  void resume(const ProbeHit& hit);
+  ParameterFile parameters() const;
+  Statistics statistics() const { return statistics_; }
+
+  const SourceSpan& span() override;
+  std::uint32_t block_number() const override {
+    return static_cast<std::uint32_t>(statistics_.blocks);
+  }
+
+ private:
+  // ---- LiveValues (live.cpp)
+  std::optional<double> numbered(int n, Place place, std::optional<Fault>& fault) const override;
+  double predefined(int index) const override;
+
+  // ---- start (start.cpp)
+  void start(const ParameterFile& file);
+  void load_parameters(const ParameterFile& file);
+  void apply_settings();
+  bool text_is_readable();
+  static void find_percent(ProgramFile& file);
+  void emit_start_state();
+
+  // ---- lines (interpreter.cpp)
+  void step();
+  Block* fetch();
+  Block* parse_cached(Frame& frame);
+  void parse_into(Frame& frame, Block& block);
+  void end_of_file();
+  void execute(Block& block);
+  void execute_words(Block& block);
+  bool count_block();
+  void stop() { done_ = true; }
+
+  // ---- O-words (flow_control.cpp)
+  void execute_oword(Block& block);
+  FlowIndex& flow_of(ProgramFile& file);
+  void branch_if(Block& block, int at);
+  void take_branch(int from);
+  void enter_while(Block& block, int at);
+  void enter_repeat(Block& block, int at);
+  void end_loop(Block& block, int at);
+  void leave_or_continue(Block& block, int at);
+  void do_while(Block& block, int at);
+  std::optional<double> condition(Block& block);
+  bool next_pass(Loop& loop);
+  Loop* loop_at(int at);
+  bool entry_is_sound(int at);
+  void loop_limit(const Frame& frame, const std::string& which);
+  std::string tested_values(const Frame& frame, const FlowEntry& head);
+  void jump_to(const FlowEntry& entry);
+  void jump_behind(const FlowEntry& entry);
+  void call(Block& block);
+  std::optional<std::string> label_of(const Block& block);
+  std::optional<std::vector<double>> arguments_of(const Block& block);
+  void call_fanuc(const FlowRequest& request);
+  bool enter_sub(ProgramFile& file, int at, const std::vector<double>* arguments, std::string what);
+  void pass_sub(Block& block, int at);
+  void leave_sub(Block& block, int at);
+  void return_fanuc();
+  void return_from_call();
+  ProgramFile* find_file_with_sub(const std::string& name);
+  ProgramFile* open_sub_file(const std::string& name, Place place);
+  ProgramFile& file_for(const SourceText& text);
+  FlowEntry& entry(int at) {
+    return frames_.back().file->flow->entries[static_cast<std::size_t>(at)];
+  }
+  std::shared_ptr<const CallFrame> current_calls();
+
+  // ---- messages (interpreter.cpp)
+  SourceSpan span_of(Place place);
+  void report(const Fault& fault);
+  void report(const char* kind, Place place, std::string message);
+  void warn(const Fault& fault);
+  bool is_cascade(const Fault& fault) const;
+  void remember_failure(const Block& block);
+
+  /// What a failed block would have set: errors that only follow from that are not told.
+  struct Unsure {
+    AxisSet axes;
+    bool feed = false, spindle = false, motion = false, names = false, tool = false;
+  };
+
+  Options options_;
+  SourceReader reader_;
+  Diagnostics& diagnostics_;
+  CodeTable table_;
+  Parameters parameters_;
+  tool::ToolTable tools_;
+  ModalState state_;
+  ModalState next_;
+  Session session_;
+  std::vector<canon::Command> queue_;
+  std::size_t head_ = 0;
+  std::vector<Frame> frames_;
+  std::map<const SourceText*, std::unique_ptr<ProgramFile>> files_;
+  std::vector<ProgramFile*> opened_order_;  ///< files of subs
+  Block scratch_;
+  Block* block_ = nullptr;  ///< in execution
+  SourceSpan span_;
+  bool span_valid_ = false;
+  bool done_ = false;
+  double value_ = 0;  ///< #<_value>
+  bool value_returned_ = false;
+  bool percent_seen_ = false;
+  std::uint64_t idle_blocks_ = 0;
+  std::size_t cached_blocks_ = 0;
+  Unsure unsure_;
+  std::vector<int> kept_numbers_;  ///< that the parameter file had
+  std::set<std::tuple<const SourceText*, std::uint64_t, std::string>> reported_;
+  Statistics statistics_;
+};
+
+/// Expands #123, #<name>, %d %f %.Nf in the text of a (DEBUG, …) (comments.cpp).
+std::string expand_message(std::string_view text, Parameters& parameters);
+/// Does what the comment of a line asks for.
+void comment_action(std::string_view text, Place place, BlockRun& run);
+
+/// Evaluates, checks and executes the words of a block (execute.cpp).
+class BlockExecutor {
+ public:
+  explicit BlockExecutor(BlockRun& run, Block& block) : run_(run), block_(block) {}
+  void execute(std::string_view line);
+
+ private:
+  struct Item {
+    Phase phase;
+    const CodeRule* rule;  ///< null for F, S, T
+    char letter;
+  };
+
+  bool evaluate();
+  bool settings();
+  bool collect();
+  bool find_motion();
+  bool check_words();
+  bool check_axes();
+  void perform(const Item& item);
+  void after_motion(const CodeRule& rule);
+  void add(Phase phase, const CodeRule* rule, char letter);
+
+  BlockRun& run_;
+  Block& block_;
+  std::array<Item, 40> items_;
+  std::size_t count_ = 0;
+  std::uint32_t letters_ = 0;  ///< bit per letter_index
+  const CodeRule* own_ = nullptr;
+  const CodeRule* shared_ = nullptr;
+  bool polar_ = false;
+};
+
+}  // namespace aircut::interp

@@ -1,0 +1,334 @@
+// The loop over the lines: fetch, execute, keep or forget.
+#include <algorithm>
+
+#include "base/text.h"
+#include "interp/codes/codes.h"
+#include "interp/impl.h"
+#include "interp/interp.h"
+#include "interp/lexer.h"
+
+namespace aircut::interp {
+namespace {
+
+constexpr std::size_t max_cached_blocks = 200'000;  // lines of loops and subs kept parsed
+constexpr std::size_t max_reported = 10'000;
+
+bool is_percent(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  return first != std::string_view::npos && line[first] == '%' &&
+         line.find_first_not_of(" \t", first + 1) == std::string_view::npos;
+}
+
+// Motion or dwell: the alternatives that stand first in canon::Action.
+bool takes_time(const canon::Action& action) {
+  return action.index() <= canon::Action(canon::Probe{}).index();
+}
+
+}  // namespace
+
+// ---- public face -----------------------------------------------------------------------------
+
+Interpreter::Interpreter(const SourceText& program, const tool::ToolTable& tools,
+                         const ParameterFile& parameters, Options options, SourceReader reader,
+                         Diagnostics& diagnostics)
+    : impl_(std::make_unique<Impl>(program, tools, parameters, std::move(options),
+                                   std::move(reader), diagnostics)) {}
+Interpreter::~Interpreter() = default;
+std::optional<canon::Command> Interpreter::next() { return impl_->next(); }
+void Interpreter::resume(const ProbeHit& hit) { impl_->resume(hit); }
+ParameterFile Interpreter::parameters() const { return impl_->parameters(); }
+Interpreter::Statistics Interpreter::statistics() const { return impl_->statistics(); }
+
+std::optional<canon::Command> Interpreter::Impl::next() {
+  while (head_ >= queue_.size()) {
+    queue_.clear();
+    head_ = 0;
+    if (done_) return std::nullopt;
+    step();
+  }
+  return std::move(queue_[head_++]);
+}
+
+// ---- lines -----------------------------------------------------------------------------------
+
+void Interpreter::Impl::parse_into(Frame& frame, Block& block) {
+  const std::string_view text = frame.file->text->content();
+  const LineExtent extent = find_line_end(text, frame.at);
+  std::uint64_t end = extent.end;
+  while (end > frame.at && (text[end - 1] == ' ' || text[end - 1] == '\t')) --end;
+  block.clear();
+  block.begin = frame.at;
+  block.line = frame.line + 1;
+  block.length = static_cast<std::uint32_t>(std::min<std::uint64_t>(end - frame.at, 0xffffffff));
+  block.next_begin = extent.next;
+}
+
+// A line that is executed again and again is parsed once. Such blocks are chained, so that going
+// on to the next line needs no search.
+Block* Interpreter::Impl::parse_cached(Frame& frame) {
+  if (frame.last && frame.last->following && frame.last->next_begin == frame.at)
+    return frame.last->following;
+  auto& blocks = frame.file->blocks;
+  const auto found = blocks.find(frame.at);
+  if (found != blocks.end()) {
+    if (frame.last && frame.last->next_begin == frame.at)
+      frame.last->following = found->second.get();
+    return found->second.get();
+  }
+  return nullptr;
+}
+
+Block* Interpreter::Impl::fetch() {
+  Frame& frame = frames_.back();
+  const bool repeated = frames_.size() > 1 || !frame.loops.empty();
+  Block* block = repeated ? parse_cached(frame) : nullptr;
+  if (block) {
+    frame.at = block->next_begin;
+    frame.line = block->line;
+    frame.last = block;
+    block_ = block;
+    span_valid_ = false;
+    return block;
+  }
+  const bool keep = repeated && cached_blocks_ < max_cached_blocks;
+  std::unique_ptr<Block> own = keep ? std::make_unique<Block>() : nullptr;
+  block = keep ? own.get() : &scratch_;
+  parse_into(frame, *block);
+  block_ = block;
+  span_valid_ = false;
+  const std::string_view line = frame.file->text->content().substr(block->begin, block->length);
+  frame.at = block->next_begin;
+  frame.line = block->line;
+  if (frame.file->percent && is_percent(line)) {
+    frame.last = nullptr;
+    if (frames_.size() > 1 || percent_seen_) {
+      if (frames_.size() > 1) {
+        end_of_file();
+      } else {
+        statistics_.ended = true;
+        stop();
+      }
+      return nullptr;
+    }
+    percent_seen_ = true;
+    return nullptr;
+  }
+  if (const auto fault = parse_line(line, parameters_, table_, *block)) {
+    frame.last = nullptr;
+    if (block->block_delete && options_.block_delete) return nullptr;
+    ++statistics_.lines;
+    report(*fault);
+    remember_failure(*block);
+    return nullptr;
+  }
+  if (!keep) {
+    frame.last = nullptr;
+    return block;
+  }
+  ++cached_blocks_;
+  if (frame.last && frame.last->next_begin == block->begin) frame.last->following = block;
+  frame.last = block;
+  frame.file->blocks.emplace(block->begin, std::move(own));
+  return block;
+}
+
+void Interpreter::Impl::step() {
+  const Frame& frame = frames_.back();
+  if (frame.at >= frame.file->text->content().size()) return end_of_file();
+  Block* block = fetch();
+  if (!block) return;
+  ++statistics_.lines;
+  if (block->empty || (block->block_delete && options_.block_delete)) return;
+  if (!count_block()) return;
+  if (block->oword.keyword != Keyword::none)
+    execute_oword(*block);
+  else
+    execute_words(*block);
+}
+
+void Interpreter::Impl::end_of_file() {
+  const Frame& frame = frames_.back();
+  if (frames_.size() > 1 && frame.sub >= 0) {
+    report("label_missing", {0, block_ ? block_->length : 0},
+           frame.fanuc ? "the sub has no end; add M99" : "the sub has no end; add endsub");
+  } else if (frame.file->percent) {
+    report("percent_missing", {0, block_ ? block_->length : 0},
+           "the program begins with '%' and must end with a line that holds only '%'");
+  } else {
+    report("program_end_missing", {0, block_ ? block_->length : 0},
+           "the program has no end; add M2 or M30 as the last line");
+  }
+  stop();
+}
+
+// Endless programs end here. A loop is named when there is one.
+bool Interpreter::Impl::count_block() {
+  ++statistics_.blocks;
+  ++idle_blocks_;
+  const bool many = statistics_.blocks > options_.limits.max_blocks;
+  if (!many && idle_blocks_ <= options_.limits.max_idle_blocks) return true;
+  const std::string which =
+      many ? std::to_string(options_.limits.max_blocks) + " executed blocks"
+           : std::to_string(options_.limits.max_idle_blocks) + " blocks without motion or dwell";
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+    if (frame->loops.empty()) continue;
+    loop_limit(*frame, which);
+    return false;
+  }
+  report("limit_reached", {0, block_->length},
+         "the limit of " + which + " is reached; raise it if the program is meant to be so long");
+  statistics_.limit_reached = true;
+  stop();
+  return false;
+}
+
+void Interpreter::Impl::execute_words(Block& block) {
+  next_ = state_;
+  const std::size_t first = queue_.size();
+  const bool comp_active = state_.comp.side != CompSide::off || state_.comp.leaving;
+  std::optional<Compensator> comp_before;
+  if (comp_active) comp_before = session_.compensator;
+  BlockRun run(session_, block, next_, *this, queue_);
+  Frame& frame = frames_.back();
+  run.level = frames_.size() == 1 ? Level::main : frame.fanuc ? Level::fanuc_sub : Level::sub;
+  run.saved = frame.saved ? &*frame.saved : nullptr;
+  BlockExecutor(run, block).execute(frame.file->text->content().substr(block.begin, block.length));
+  if (!run.ok()) {
+    queue_.resize(first);
+    parameters_.roll_back();
+    run.roll_back_tools();
+    if (comp_before) session_.compensator = std::move(*comp_before);
+    session_.nurbs.resize(state_.nurbs_points);
+    report(*run.fault());
+    remember_failure(block);
+    if (std::string_view(run.fault()->kind) == "alarm") stop();
+    return;
+  }
+  parameters_.commit();
+  state_ = next_;
+  if (run.stack.drop) frame.saved.reset();
+  if (run.stack.save) frame.saved = run.stack.save;
+  if (run.stack.restore_at_return) frame.restore_at_return = true;
+  for (const Fault& warning : run.warnings()) warn(warning);
+  for (std::size_t i = first; i < queue_.size(); ++i)
+    if (takes_time(queue_[i].action)) idle_blocks_ = 0;
+  switch (run.flow.kind) {
+    case FlowRequest::Kind::none:
+      break;
+    case FlowRequest::Kind::end:
+      statistics_.ended = true;
+      stop();
+      break;
+    case FlowRequest::Kind::call:
+      call_fanuc(run.flow);
+      break;
+    case FlowRequest::Kind::return_:
+      return_fanuc();
+      break;
+  }
+}
+
+void Interpreter::Impl::resume(const ProbeHit& hit) {
+  state_.tip = hit.tip;
+  const AxisValues work = to_program(state_, hit.tip);
+  for (const Axis axis : all_axes)
+    parameters_.write(number::probe_position + static_cast<int>(index(axis)),
+                      work[axis] / (is_rotary(axis) ? radian_per_degree : state_.unit_mm()));
+  parameters_.write(number::probe_tripped, hit.tripped ? 1 : 0);
+  parameters_.commit();
+}
+
+// What a control keeps over a restart: home positions, G92, the nine work systems, and any user
+// number that the file had already.
+ParameterFile Interpreter::Impl::parameters() const {
+  ParameterFile file;
+  const auto keep = [&](int first, int count) {
+    for (int n = first; n < first + count; ++n) file.values[n] = parameters_.stored(n);
+  };
+  keep(number::g28_position, 9);
+  keep(number::g30_position, 9);
+  keep(number::g92_applied, 11);
+  for (int system = 0; system < 9; ++system) keep(number::first_system + 20 * system, 10);
+  for (const int n : kept_numbers_) file.values[n] = parameters_.stored(n);
+  return file;
+}
+
+// ---- messages --------------------------------------------------------------------------------
+
+const SourceSpan& Interpreter::Impl::span() {
+  if (!span_valid_) {
+    span_.text = frames_.back().file->text;
+    span_.begin = block_ ? block_->begin : 0;
+    span_.length = block_ ? block_->length : 0;
+    span_.line = block_ ? block_->line : 0;
+    span_.calls = current_calls();
+    span_valid_ = true;
+  }
+  return span_;
+}
+
+SourceSpan Interpreter::Impl::span_of(Place place) {
+  SourceSpan at = span();
+  at.begin += place.begin;
+  at.length = place.length;
+  return at;
+}
+
+// An error is told once per place and kind: in a loop it would come again with every pass.
+void Interpreter::Impl::report(const Fault& fault) {
+  if (!options_.keep_going) stop();
+  if (is_cascade(fault)) return;
+  const SourceSpan at = span_of(fault.place);
+  if (!reported_.emplace(at.text, at.begin, fault.kind).second) return;
+  diagnostics_.error(fault.kind, at, fault.message);
+  if (reported_.size() == max_reported) {
+    diagnostics_.error("limit_reached", at, "more than 10000 messages; the rest is not reported");
+    statistics_.limit_reached = true;
+    stop();
+  }
+}
+
+void Interpreter::Impl::report(const char* kind, Place place, std::string message) {
+  report(Fault{kind, place, std::move(message)});
+}
+
+void Interpreter::Impl::warn(const Fault& fault) {
+  const SourceSpan at = span_of(fault.place);
+  if (reported_.size() >= max_reported || !reported_.emplace(at.text, at.begin, fault.kind).second)
+    return;
+  diagnostics_.warning(fault.kind, at, fault.message);
+}
+
+// Errors that may be nothing but the echo of an earlier one: the position, the feed or the names
+// that the failed block would have set.
+bool Interpreter::Impl::is_cascade(const Fault& fault) const {
+  const std::string_view kind = fault.kind;
+  if (kind == "arc_error" || kind == "polar_error" || kind == "probe_error" ||
+      kind.starts_with("comp_"))
+    return !unsure_.axes.empty();
+  if (kind == "zero_feed" || kind == "feed_missing") return unsure_.feed;
+  if (kind == "spindle_stopped") return unsure_.spindle;
+  if (kind == "axis_word_unused" || kind == "word_unused" || kind == "cycle_error" ||
+      kind == "word_missing")
+    return unsure_.motion;
+  if (kind == "parameter_undefined") return unsure_.names;
+  return false;
+}
+
+void Interpreter::Impl::remember_failure(const Block& block) {
+  for (const Axis axis : all_axes)
+    if (block.find(letter(axis))) unsure_.axes.add(axis);
+  if (block.find('@') || block.find('^')) {
+    unsure_.axes.add(Axis::x);
+    unsure_.axes.add(Axis::y);
+  }
+  if (block.find('F')) unsure_.feed = true;
+  for (const Word& word : block.words) {
+    if (word.letter == 'M') unsure_.spindle = true;
+    if (word.letter == 'G') unsure_.motion = true;
+  }
+  for (const Setting& setting : block.settings)
+    if (setting.name >= 0) unsure_.names = true;
+}
+
+}  // namespace aircut::interp

@@ -1,0 +1,252 @@
+#include "interp/parameters.h"
+
+#include <algorithm>
+
+#include "base/text.h"
+
+namespace aircut::interp {
+namespace {
+
+std::string upper(std::string text) {
+  for (char& c : text)
+    if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 32);
+  return text;
+}
+
+constexpr bool within(int n, int first, int count) { return n >= first && n < first + count; }
+
+// Numbers whose value follows from the machine's state.
+bool is_live(int n) {
+  return within(n, number::absolute_position, 9) || within(n, number::length_offset, 9) ||
+         within(n, number::loaded_tool, 14) || within(n, number::current_position, 9);
+}
+
+}  // namespace
+
+const std::vector<std::string>& predefined_names() {
+  // In the order of Live::predefined.
+  static const std::vector<std::string> names = {"_line",
+                                                 "_motion_mode",
+                                                 "_plane",
+                                                 "_ccomp",
+                                                 "_metric",
+                                                 "_imperial",
+                                                 "_absolute",
+                                                 "_incremental",
+                                                 "_inverse_time",
+                                                 "_units_per_minute",
+                                                 "_units_per_rev",
+                                                 "_coord_system",
+                                                 "_tool_offset",
+                                                 "_retract_r_plane",
+                                                 "_retract_old_z",
+                                                 "_spindle_rpm_mode",
+                                                 "_spindle_css_mode",
+                                                 "_ijk_absolute_mode",
+                                                 "_lathe_diameter_mode",
+                                                 "_lathe_radius_mode",
+                                                 "_spindle_on",
+                                                 "_spindle_cw",
+                                                 "_mist",
+                                                 "_flood",
+                                                 "_speed_override",
+                                                 "_feed_override",
+                                                 "_adaptive_feed",
+                                                 "_feed_hold",
+                                                 "_feed",
+                                                 "_rpm",
+                                                 "_x",
+                                                 "_y",
+                                                 "_z",
+                                                 "_a",
+                                                 "_b",
+                                                 "_c",
+                                                 "_u",
+                                                 "_v",
+                                                 "_w",
+                                                 "_abs_x",
+                                                 "_abs_y",
+                                                 "_abs_z",
+                                                 "_abs_a",
+                                                 "_abs_b",
+                                                 "_abs_c",
+                                                 "_abs_u",
+                                                 "_abs_v",
+                                                 "_abs_w",
+                                                 "_current_tool",
+                                                 "_current_pocket",
+                                                 "_selected_tool",
+                                                 "_selected_pocket",
+                                                 "_value",
+                                                 "_value_returned",
+                                                 "_task",
+                                                 "_call_level",
+                                                 "_remap_level",
+                                                 "_vmajor",
+                                                 "_vminor"};
+  return names;
+}
+
+Parameters::Parameters(const LiveValues& live, std::map<std::string, double> ini)
+    : live_(live), values_(number::last + 1, 0.0), levels_(1) {
+  for (auto& [key, value] : ini) ini_[upper(key)] = value;
+  values_[number::active_system] = 1;
+  values_[number::debug_enabled] = 1;
+}
+
+bool Parameters::read_only(int n) { return is_live(n); }
+
+std::optional<double> Parameters::read_high(int n, Place place, std::optional<Fault>& fault) const {
+  if (!in_range(n)) {
+    fault = Fault{"parameter_range", place,
+                  "there is no parameter #" + std::to_string(n) + "; numbers go from 1 to " +
+                      std::to_string(number::last)};
+    return std::nullopt;
+  }
+  if (is_live(n)) return live_.numbered(n, place, fault);
+  return values_[static_cast<std::size_t>(n)];
+}
+
+void Parameters::write(int n, double value) {
+  double& stored = values_[static_cast<std::size_t>(n)];
+  journal_.push_back({n, true, stored});
+  stored = value;
+}
+
+std::int32_t Parameters::intern(std::string_view name) {
+  if (const auto found = ids_.find(name); found != ids_.end()) return found->second;
+  Name entry;
+  entry.text = std::string(name);
+  const auto& predefined = predefined_names();
+  const auto at = std::find(predefined.begin(), predefined.end(), entry.text);
+  if (at != predefined.end()) {
+    entry.kind = NameKind::predefined;
+    entry.index = static_cast<int>(at - predefined.begin());
+  } else if (name.starts_with("_ini[") && name.find(']') != std::string_view::npos) {
+    const std::size_t close = name.find(']');
+    const auto found = ini_.find(
+        upper(std::string(name.substr(5, close - 5)) + "/" + std::string(name.substr(close + 1))));
+    entry.kind = NameKind::ini;
+    entry.defined = found != ini_.end();
+    if (entry.defined) entry.value = found->second;
+  } else if (name.starts_with("_hal[")) {
+    entry.kind = NameKind::missing;
+  } else if (name.starts_with("_")) {
+    entry.kind = NameKind::global;
+  }
+  const auto id = static_cast<std::int32_t>(names_.size());
+  names_.push_back(std::move(entry));
+  ids_.emplace(std::string(name), id);
+  return id;
+}
+
+const std::string& Parameters::name_of(std::int32_t id) const {
+  return names_[static_cast<std::size_t>(id)].text;
+}
+
+std::optional<std::int32_t> Parameters::known(std::string_view name) const {
+  const auto found = ids_.find(name);
+  if (found == ids_.end()) return std::nullopt;
+  return found->second;
+}
+
+const double* Parameters::local(std::int32_t id) const {
+  for (const auto& [name, value] : levels_.back().locals)
+    if (name == id) return &value;
+  return nullptr;
+}
+
+bool Parameters::exists(std::int32_t id) const {
+  const Name& name = names_[static_cast<std::size_t>(id)];
+  switch (name.kind) {
+    case NameKind::local:
+      return local(id) != nullptr;
+    case NameKind::predefined:
+      return true;
+    default:
+      return name.defined;
+  }
+}
+
+bool Parameters::read_only_name(std::int32_t id) const {
+  const NameKind kind = names_[static_cast<std::size_t>(id)].kind;
+  return kind != NameKind::local && kind != NameKind::global;
+}
+
+std::optional<double> Parameters::read_named(std::int32_t id, Place place,
+                                             std::optional<Fault>& fault) const {
+  const Name& name = names_[static_cast<std::size_t>(id)];
+  if (name.kind == NameKind::predefined) return live_.predefined(name.index);
+  if (name.kind == NameKind::local) {
+    if (const double* value = local(id)) return *value;
+  } else if (name.defined) {
+    return name.value;
+  }
+  std::string message = "the parameter #<" + printable(name.text) + "> is not defined";
+  if (name.kind == NameKind::missing)
+    message += "; pins of a machine can't be read here";
+  else if (name.kind == NameKind::ini)
+    message += "; the machine's INI file has no such entry";
+  else
+    message += "; set it before this line, e.g. #<" + printable(name.text) + "> = 0";
+  fault = Fault{"parameter_undefined", place, std::move(message)};
+  return std::nullopt;
+}
+
+void Parameters::set_named(std::int32_t id, bool defined, double value) {
+  Name& name = names_[static_cast<std::size_t>(id)];
+  if (name.kind != NameKind::local) {
+    name.defined = defined;
+    name.value = value;
+    return;
+  }
+  auto& locals = levels_.back().locals;
+  const auto at = std::find_if(locals.begin(), locals.end(),
+                               [&](const auto& entry) { return entry.first == id; });
+  if (!defined) {
+    if (at != locals.end()) locals.erase(at);
+  } else if (at == locals.end()) {
+    locals.emplace_back(id, value);
+  } else {
+    at->second = value;
+  }
+}
+
+void Parameters::write_named(std::int32_t id, double value) {
+  const Name& name = names_[static_cast<std::size_t>(id)];
+  const double* old = name.kind == NameKind::local ? local(id) : &name.value;
+  const bool defined = name.kind == NameKind::local ? old != nullptr : name.defined;
+  journal_.push_back({-1 - id, defined, old ? *old : 0});
+  set_named(id, true, value);
+}
+
+void Parameters::roll_back() {
+  for (auto change = journal_.rbegin(); change != journal_.rend(); ++change) {
+    if (change->id >= 0)
+      values_[static_cast<std::size_t>(change->id)] = change->value;
+    else
+      set_named(-1 - change->id, change->defined, change->value);
+  }
+  journal_.clear();
+}
+
+void Parameters::enter(const std::vector<double>* arguments) {
+  Level level;
+  level.saves = arguments != nullptr;
+  if (arguments) {
+    for (std::size_t i = 0; i < 30; ++i) {
+      level.saved[i] = values_[i + 1];
+      values_[i + 1] = i < arguments->size() ? (*arguments)[i] : 0;
+    }
+  }
+  levels_.push_back(std::move(level));
+}
+
+void Parameters::leave() {
+  const Level& level = levels_.back();
+  if (level.saves)
+    for (std::size_t i = 0; i < 30; ++i) values_[i + 1] = level.saved[i];
+  levels_.pop_back();
+}
+
+}  // namespace aircut::interp

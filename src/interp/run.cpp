@@ -1,0 +1,104 @@
+#include "interp/run.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/text.h"
+
+namespace aircut::interp {
+
+std::optional<int> BlockRun::integer(char letter, int least, int most, const char* kind) {
+  const Word* word = block.find(letter);
+  if (!word) return std::nullopt;
+  const auto value = as_integer(word->number);
+  if (value && *value >= least && *value <= most) return value;
+  std::string range = "from " + std::to_string(least) + " to " + std::to_string(most);
+  if (most == std::numeric_limits<int>::max()) range = "of " + std::to_string(least) + " or more";
+  error(kind, word->place,
+        std::string(1, letter) + " must be an integer " + range + " here, this is " +
+            shortest(word->number));
+  return std::nullopt;
+}
+
+std::optional<double> BlockRun::axis(Axis which) const {
+  const Word* word = block.find(letter(which));
+  if (!word) return std::nullopt;
+  if (is_rotary(which)) return word->number * radian_per_degree;
+  const double value = word->number * state.unit_mm();
+  return which == Axis::x && state.lathe_diameter ? value / 2 : value;
+}
+
+Place BlockRun::place(char letter) const {
+  const Word* word = block.find(letter);
+  return word ? word->place : whole();
+}
+
+Place BlockRun::place(const CodeRule& rule) const {
+  for (const Word& word : block.words)
+    if (word.rule == &rule) return word.place;
+  return whole();
+}
+
+void BlockRun::error(const char* kind, Place place, std::string message) {
+  if (!fault_) fault_ = Fault{kind, place, std::move(message)};
+}
+
+void BlockRun::warning(const char* kind, Place place, std::string message) {
+  warnings_.push_back({kind, place, std::move(message)});
+}
+
+void BlockRun::emit(canon::Action action, std::string expanded) {
+  if (session.compensator.holds()) {
+    canon::Command command;
+    command.action = std::move(action);
+    command.expanded = std::move(expanded);
+    command.span = site_.span();
+    command.block = site_.block_number();
+    session.compensator.hold(std::move(command));
+    return;
+  }
+  emit_now(std::move(action), std::move(expanded));
+}
+
+void BlockRun::emit_now(canon::Action action, std::string expanded) {
+  canon::Command& command = out_.emplace_back();
+  command.action = std::move(action);
+  command.span = site_.span();
+  command.block = site_.block_number();
+  if (!expanded.empty()) command.expanded = std::move(expanded);
+}
+
+void BlockRun::emit_work_offset() { emit(canon::WorkOffset{state.system, state.work_offset}); }
+void BlockRun::emit_rotation() { emit(canon::WorkRotation{state.rotation}); }
+void BlockRun::emit_g92() { emit(canon::G92Offset{state.g92}); }
+
+AxisValues BlockRun::stored_axes(int first) const {
+  AxisValues values;
+  for (const Axis axis : all_axes)
+    values[axis] = parameter(first + static_cast<int>(index(axis))) *
+                   (is_rotary(axis) ? radian_per_degree : session.machine_unit_mm);
+  return values;
+}
+
+void BlockRun::store_axes(int first, const AxisValues& values) {
+  for (const Axis axis : all_axes)
+    set_parameter(first + static_cast<int>(index(axis)),
+                  values[axis] / (is_rotary(axis) ? radian_per_degree : session.machine_unit_mm));
+}
+
+tool::Tool* BlockRun::change_tool(int number) {
+  const auto at = std::find_if(session.tools.tools.begin(), session.tools.tools.end(),
+                               [&](const tool::Tool& tool) { return tool.number == number; });
+  if (at == session.tools.tools.end()) return nullptr;
+  old_tools_.push_back(*at);
+  return &*at;
+}
+
+void BlockRun::roll_back_tools() {
+  for (auto old = old_tools_.rbegin(); old != old_tools_.rend(); ++old)
+    for (tool::Tool& tool : session.tools.tools)
+      if (tool.number == old->number) tool = *old;
+  old_tools_.clear();
+}
+
+}  // namespace aircut::interp

@@ -1,0 +1,145 @@
+// One execution of a block: what a handler sees. It changes a copy of the state, collects commands
+// and errors; the interpreter keeps all of it or nothing.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "interp/block.h"
+#include "interp/code_table.h"
+#include "interp/compensation.h"
+#include "interp/interp.h"
+#include "interp/parameters.h"
+#include "interp/state.h"
+
+namespace aircut::interp {
+
+/// What outlives a block beside the modal state.
+struct Session {
+  const Options& options;
+  const CodeTable& table;
+  Parameters& parameters;
+  tool::ToolTable& tools;
+  Compensator compensator;
+  std::vector<canon::SplineFeed::Point> nurbs;  ///< control points since G5.2, machine coordinates
+  double machine_unit_mm = 1;
+};
+
+/// What a block asks of the flow of control once it has succeeded.
+struct FlowRequest {
+  enum class Kind : unsigned char { none, end, call, return_ } kind = Kind::none;
+  std::int64_t label = 0;     ///< M98 P
+  std::uint64_t repeats = 1;  ///< M98 L
+};
+
+/// M70, M71, M73: done once the block has succeeded, by the flow of control, which owns the levels.
+struct StackRequest {
+  std::optional<ModalState> save;
+  bool drop = false;
+  bool restore_at_return = false;
+};
+
+/// In what a block stands.
+enum class Level : unsigned char { main, sub, fanuc_sub };
+
+/// Knows the place of the block that is being executed, with the calls that led there.
+class Site {
+ public:
+  virtual ~Site() = default;
+  virtual const SourceSpan& span() = 0;
+  virtual std::uint32_t block_number() const = 0;
+};
+
+class BlockRun {
+ public:
+  BlockRun(Session& s, const Block& b, ModalState& next, Site& site,
+           std::vector<canon::Command>& out)
+      : session(s), block(b), state(next), site_(site), out_(out) {}
+
+  Session& session;
+  const Block& block;
+  ModalState& state;
+  FlowRequest flow;
+  StackRequest stack;
+  Level level = Level::main;
+  const ModalState* saved = nullptr;      ///< by M70 on this level
+  const CodeRule* motion_rule = nullptr;  ///< explicit or modal, of this line
+  bool machine_coordinates = false;       ///< G53
+  bool feed_given = false;                ///< the line has an F word
+
+  // ---- words
+  bool has(char letter) const { return block.find(letter) != nullptr; }
+  std::optional<double> number(char letter) const {
+    const Word* word = block.find(letter);
+    if (!word) return std::nullopt;
+    return word->number;
+  }
+  double number_or(char letter, double otherwise) const {
+    return number(letter).value_or(otherwise);
+  }
+  /// The integer of a word that is there; an error and nothing when it is not an integer in
+  /// [least, most].
+  std::optional<int> integer(char letter, int least, int most, const char* kind = "word_value");
+  /// A length word in mm.
+  double length(char letter, double otherwise = 0) const {
+    const Word* word = block.find(letter);
+    return word ? word->number * state.unit_mm() : otherwise;
+  }
+  bool has_axis_words() const { return axis_words_; }
+  /// An axis word's number in mm or rad, X halved in diameter mode; nothing without the word.
+  std::optional<double> axis(Axis which) const;
+
+  // ---- places
+  Place place(char letter) const;
+  Place place(const CodeRule& rule) const;
+  Place whole() const { return {0, block.length}; }
+
+  // ---- results
+  void error(const char* kind, Place place, std::string message);
+  void error(const char* kind, char letter, std::string message) {
+    error(kind, place(letter), std::move(message));
+  }
+  void error(const char* kind, const CodeRule& rule, std::string message) {
+    error(kind, place(rule), std::move(message));
+  }
+  void warning(const char* kind, Place place, std::string message);
+  bool ok() const { return !fault_; }
+  const std::optional<Fault>& fault() const { return fault_; }
+  const std::vector<Fault>& warnings() const { return warnings_; }
+
+  /// Appends a command; while radius compensation holds a move back, it waits behind that move.
+  void emit(canon::Action action, std::string expanded = {});
+  /// Appends it in front of anything that is held back.
+  void emit_now(canon::Action action, std::string expanded = {});
+  /// Appends a command that has its place already.
+  void release(canon::Command command) { out_.push_back(std::move(command)); }
+
+  // ---- offsets and position, kept in step
+  /// Emits the three commands of the work system in force.
+  void emit_work_offset();
+  void emit_rotation();
+  void emit_g92();
+
+  void set_parameter(int n, double value) { session.parameters.write(n, value); }
+  double parameter(int n) const { return session.parameters.stored(n); }
+  /// #n … as an offset: machine units and degrees to mm and rad.
+  AxisValues stored_axes(int first) const;
+  void store_axes(int first, const AxisValues& values);
+  /// The tool with this number for changing it; the old state is kept for a roll back.
+  tool::Tool* change_tool(int number);
+  void roll_back_tools();
+
+ private:
+  friend class BlockExecutor;
+  Site& site_;
+  std::vector<canon::Command>& out_;
+  std::optional<Fault> fault_;
+  std::vector<Fault> warnings_;
+  std::vector<tool::Tool> old_tools_;
+  bool axis_words_ = false;
+};
+
+}  // namespace aircut::interp

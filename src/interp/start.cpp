@@ -1,0 +1,171 @@
+// What happens before the first line: settings, parameters, a look at the text, the start state.
+#include <algorithm>
+
+#include "base/text.h"
+#include "interp/codes/codes.h"
+#include "interp/impl.h"
+#include "interp/lexer.h"
+
+namespace aircut::interp {
+namespace {
+
+std::string_view trimmed(std::string_view line) {
+  const std::size_t first = line.find_first_not_of(" \t");
+  if (first == std::string_view::npos) return {};
+  return line.substr(first, line.find_last_not_of(" \t") - first + 1);
+}
+
+}  // namespace
+
+Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
+                        const ParameterFile& file, Options options, SourceReader reader,
+                        Diagnostics& diagnostics)
+    : options_(std::move(options)),
+      reader_(std::move(reader)),
+      diagnostics_(diagnostics),
+      parameters_(*this, options_.ini),
+      tools_(tools),
+      session_{options_,
+               table_,
+               parameters_,
+               tools_,
+               {},
+               {},
+               options_.machine_unit == canon::Unit::inch ? 25.4 : 1.0} {
+  options_.spindles = std::clamp(options_.spindles, 1, max_spindles);
+  frames_.emplace_back();
+  frames_.back().file = &file_for(program);
+  start(file);
+}
+
+void Interpreter::Impl::start(const ParameterFile& file) {
+  state_.unit = options_.start_unit;
+  state_.tool = options_.tool_in_spindle;
+  load_parameters(file);
+  apply_settings();
+  const int system =
+      std::clamp(as_integer(parameters_.stored(number::active_system)).value_or(1), 1, 9);
+  parameters_.write(number::active_system, system);
+  {
+    BlockRun run(session_, scratch_, state_, *this, queue_);
+    load_work_system(run, system);
+    if (parameters_.stored(number::g92_applied) != 0)
+      state_.g92 = run.stored_axes(number::g92_offset);
+  }
+  state_.tip = options_.start;
+  parameters_.commit();
+  if (!text_is_readable()) return stop();
+  emit_start_state();
+}
+
+void Interpreter::Impl::load_parameters(const ParameterFile& file) {
+  for (const auto& [n, value] : file.values) {
+    if (!Parameters::in_range(n) || Parameters::read_only(n)) continue;
+    parameters_.write(n, value);
+    kept_numbers_.push_back(n);
+  }
+  parameters_.commit();
+}
+
+void Interpreter::Impl::apply_settings() {
+  for (const auto& [target, value] : options_.set) {
+    Block block;
+    const std::string line = target + "=" + shortest(value);
+    const auto fault = parse_line(line, parameters_, table_, block);
+    const bool is_setting = !fault && block.settings.size() == 1 && block.words.empty();
+    bool done = false;
+    if (is_setting) {
+      const Setting& setting = block.settings.front();
+      const auto n = setting.name < 0 ? as_integer(setting.target.number) : std::nullopt;
+      if (setting.name >= 0 && !parameters_.read_only_name(setting.name)) {
+        parameters_.write_named(setting.name, value);
+        done = true;
+      } else if (n && setting.target.constant() && Parameters::in_range(*n) &&
+                 !Parameters::read_only(*n)) {
+        parameters_.write(*n, value);
+        done = true;
+      }
+    }
+    if (!done)
+      diagnostics_.error("parameter_range", {},
+                         "the parameter '" + printable(target) +
+                             "' can't be set from outside; use #number or #<name>");
+  }
+  parameters_.commit();
+}
+
+bool Interpreter::Impl::text_is_readable() {
+  ProgramFile& file = *frames_.back().file;
+  const std::string_view text = file.text->content();
+  SourceSpan at;
+  at.text = file.text;
+  at.line = 1;
+  const auto refuse = [&](const char* kind, std::string message) {
+    diagnostics_.error(kind, at, std::move(message));
+    return false;
+  };
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    return refuse("encoding", "the text is UTF-16; save it as UTF-8 or plain text");
+  if (text.starts_with("\xef\xbb\xbf")) {
+    file.begin = 3;
+    frames_.back().at = 3;
+    at.length = 3;
+    diagnostics_.error("encoding", at,
+                       "the text begins with a byte order mark, which the control can't read; "
+                       "save it as UTF-8 without one");
+  }
+  const std::string_view head = text.substr(0, 4096);
+  const auto odd = std::count_if(head.begin(), head.end(), [](char c) {
+    return (c >= 0 && c < ' ' && c != '\n' && c != '\r' && c != '\t') || c == 0x7f;
+  });
+  if (odd > 8 && static_cast<std::size_t>(odd) * 20 > head.size())
+    return refuse("encoding", "this is not a text but binary data; give an NC program");
+  if (text.substr(file.begin).find_first_not_of(" \t\r\n") == std::string_view::npos)
+    return refuse("empty_program", "the program is empty; it needs at least M2");
+  find_percent(file);
+  return true;
+}
+
+// The first line that is not blank decides whether `%` brackets the program.
+void Interpreter::Impl::find_percent(ProgramFile& file) {
+  const std::string_view text = file.text->content();
+  for (std::uint64_t at = file.begin; at < text.size();) {
+    const LineExtent extent = find_line_end(text, at);
+    const std::string_view line = trimmed(text.substr(at, extent.end - at));
+    if (!line.empty()) {
+      file.percent = line == "%";
+      return;
+    }
+    at = extent.next;
+  }
+}
+
+void Interpreter::Impl::emit_start_state() {
+  const auto emit = [&](canon::Action action) {
+    canon::Command command;
+    command.action = std::move(action);
+    queue_.push_back(std::move(command));
+  };
+  emit(canon::UseUnit{state_.unit});
+  emit(canon::WorkOffset{state_.system, state_.work_offset});
+  emit(canon::G92Offset{state_.g92});
+  emit(canon::WorkRotation{state_.rotation});
+  emit(canon::ToolLengthOffset{});
+  emit(canon::SelectPlane{state_.plane});
+  emit(canon::SetFeedMode{state_.feed_mode});
+  emit(canon::SetFeedRate{});
+  emit(canon::SetPathMode{state_.path_mode, 0});
+  emit(canon::SetNaiveCam{0});
+  if (state_.tool != 0) emit(canon::SetToolNumber{state_.tool});
+}
+
+ProgramFile& Interpreter::Impl::file_for(const SourceText& text) {
+  auto& slot = files_[&text];
+  if (!slot) {
+    slot = std::make_unique<ProgramFile>();
+    slot->text = &text;
+  }
+  return *slot;
+}
+
+}  // namespace aircut::interp

@@ -1,0 +1,104 @@
+// All modal settings as a plain copyable value. Lengths mm, angles rad, positions are of the tool
+// tip in machine coordinates (without the tool length offset) unless the name says otherwise.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "canon/canon.h"
+
+namespace aircut::interp {
+
+constexpr double radian_per_degree = std::numbers::pi / 180;
+constexpr int max_spindles = 8;
+
+struct SpindleState {
+  canon::SpindleTurn turn = canon::SpindleTurn::stop;
+  double speed = 0;      ///< rev/min, with css the number of S as programmed
+  bool css = false;      ///< G96
+  double css_limit = 0;  ///< rev/min, of G96 D
+  bool override_on = true;
+};
+
+/// What a canned cycle remembers from line to line. In program units of the lines' numbers
+/// converted to mm; along the plane's normal axis in program coordinates.
+struct CycleState {
+  int code = 0;        ///< of the cycle group in force, 0 outside
+  double initial = 0;  ///< normal coordinate when the group began
+  double r = 0, z = 0, p = 0, q = 0, d = 0;
+  bool has_p = false, has_q = false, has_d = false;
+};
+
+/// Control point that a G5 without I J reflects.
+struct SplineMemory {
+  bool valid = false;
+  double dx = 0, dy = 0;  ///< end − second control point of the last G5
+};
+
+enum class CompSide : unsigned char { off, left, right };
+
+struct CompState {
+  CompSide side = CompSide::off;
+  double radius = 0;  ///< mm, >= 0
+  int orientation = 0;
+  bool from_diameter_word = false;  ///< G41.1, G42.1
+  bool entered = false;             ///< the entry move was made
+  bool leaving = false;             ///< G40 was given, the next move must be straight
+  AxisValues programmed;            ///< where the tip would be without compensation, once entered
+};
+
+struct ModalState {
+  AxisValues tip;
+  AxisValues work_offset;  ///< of the active system
+  double rotation = 0;     ///< of the active system about Z
+  AxisValues g92;          ///< in force
+  AxisValues length_offset;
+  int system = 1;
+
+  canon::Unit unit = canon::Unit::millimetre;
+  canon::Plane plane = canon::Plane::xy;
+  canon::FeedMode feed_mode = canon::FeedMode::per_minute;
+  canon::PathMode path_mode = canon::PathMode::continuous;
+  double path_tolerance = 0;
+  double naive_tolerance = 0;
+  bool incremental = false;       ///< G91
+  bool absolute_centres = false;  ///< G90.1
+  bool retract_to_r = true;       ///< G99
+  bool lathe_diameter = false;    ///< G7
+  int motion = 800;               ///< code × 10 of group 1; 800 for G80
+  double feed = 0;                ///< the number of F as programmed
+
+  int selected_tool = -1;  ///< -1: none selected yet
+  int tool = 0;            ///< in the spindle
+  std::array<SpindleState, max_spindles> spindles{};
+  bool mist = false;
+  bool flood = false;
+  bool feed_override = true;
+  bool adaptive_feed = false;
+  bool feed_hold = true;
+
+  CompState comp;
+  CycleState cycle;
+  SplineMemory spline;
+  std::uint32_t nurbs_points = 0;  ///< control points collected since G5.2
+  int nurbs_order = 3;
+
+  /// The point from which the next move is programmed.
+  const AxisValues& programmed_tip() const { return comp.entered ? comp.programmed : tip; }
+  double unit_mm() const { return unit == canon::Unit::inch ? 25.4 : 1.0; }
+};
+
+/// Program coordinates of a tip position.
+AxisValues to_program(const ModalState& state, const AxisValues& tip);
+/// Tip position of program coordinates.
+AxisValues to_tip(const ModalState& state, const AxisValues& program);
+
+/// The axes of a plane: first, second and normal, right-handed.
+struct PlaneAxes {
+  Axis first, second, normal;
+};
+PlaneAxes axes_of(canon::Plane plane);
+
+}  // namespace aircut::interp
