@@ -81,7 +81,7 @@ void forward(const Machine& machine, const JointVector& joints, LinkPoses& out) 
   std::array<double, max_passive> passive{};
   const bool any_passive = machine.tree().size() > static_cast<std::size_t>(machine.joint_count());
   if (any_passive) {
-    const std::size_t count = machine.kinematics().passive_names().size();
+    const auto count = static_cast<std::size_t>(machine.kinematics().passive_count());
     assert(count <= max_passive);
     machine.kinematics().passive(joints, std::span(passive).first(count));
   }

@@ -131,6 +131,8 @@ class Kinematics {
   /// Names of passive values, in the order of passive(). A name that ends in `_angle` is an angle
   /// for a rotary couple, any other a length for a sliding one.
   virtual std::vector<std::string> passive_names() const { return {}; }
+  /// How many there are; called for every pose, so a type with passive values gives it directly.
+  virtual int passive_count() const { return static_cast<int>(passive_names().size()); }
 
   /// Joints for a target; `near` (same size) chooses among turns and branches.
   virtual tl::expected<JointVector, ReachError> inverse(const Target& target,

@@ -31,6 +31,12 @@ TEST(KinematicsContract, EveryRowHasASample) {
   }
 }
 
+TEST(KinematicsContract, CountsItsPassiveValues) {
+  for (const Sample& sample : samples())
+    EXPECT_EQ(static_cast<std::size_t>(sample.kinematics->passive_count()),
+              sample.kinematics->passive_names().size());
+}
+
 TEST(KinematicsContract, ForwardUndoesInverse) {
   for (const Sample& sample : samples()) {
     Random random(1);

@@ -57,6 +57,7 @@ class OxGlideKinematics final : public Kinematics {
   std::vector<std::string> passive_names() const override {
     return {"rod1_angle", "rod2_angle", "platform_x", "platform_z"};
   }
+  int passive_count() const override { return 4; }
 
   tl::expected<JointVector, ReachError> inverse(const Target& target,
                                                 const JointVector&) const override {
