@@ -233,13 +233,16 @@ namespace {
 /// Depth first, the nearer child first, so that the bound shrinks early.
 class NearestSearch {
  public:
-  NearestSearch(const TreePair& pair, double bound) : pair_(pair) { best_.squared = bound * bound; }
+  NearestSearch(const TreePair& pair, double bound, const Tolerance& tolerance)
+      : pair_(pair), tolerance_(tolerance) {
+    best_.squared = worth_ = left_out_ = bound * bound;
+  }
 
-  std::optional<ClosestPoints> run() {
+  std::optional<Nearest> run() {
     const double gap = pair_.box_gap(pair_.a.node(0).box, pair_.b.node(0).box);
-    if (gap < best_.squared) visit(0, 0);
+    if (gap < worth_) visit(0, 0);
     if (!found_) return std::nullopt;
-    return best_;
+    return Nearest{best_, std::sqrt(std::min(best_.squared, left_out_))};
   }
 
  private:
@@ -262,8 +265,14 @@ class NearestSearch {
       std::swap(a1, a2);
       std::swap(b1, b2);
     }
-    if (gap1 < best_.squared) visit(a1, b1);
-    if (gap2 < best_.squared) visit(a2, b2);
+    if (gap1 < worth_)
+      visit(a1, b1);
+    else
+      left_out_ = std::min(left_out_, gap1);
+    if (gap2 < worth_)
+      visit(a2, b2);
+    else
+      left_out_ = std::min(left_out_, gap2);
   }
 
   void compare(const BoxTree::Node& na, const BoxTree::Node& nb) {
@@ -272,21 +281,32 @@ class NearestSearch {
       for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
         const ClosestPoints points = closest_points(pair_.a.triangle(i), tb);
         if (points.squared >= best_.squared) continue;
+        lower_to(std::sqrt(points.squared));
         best_ = points;
         found_ = true;
       }
     }
   }
 
+  void lower_to(double distance) {
+    best_.squared = distance * distance;
+    const double worth =
+        std::max(0.0, distance - std::max(tolerance_.relative * distance, tolerance_.absolute));
+    worth_ = worth * worth;
+  }
+
   const TreePair& pair_;
+  const Tolerance tolerance_;
   ClosestPoints best_;
+  double worth_ = 0;     ///< squared; boxes at least this far apart can't improve the best much
+  double left_out_ = 0;  ///< squared gap of the nearest boxes that were not looked at
   bool found_ = false;
 };
 
 }  // namespace
 
-std::optional<ClosestPoints> nearest(const TreePair& pair, double bound) {
-  return NearestSearch(pair, bound).run();
+std::optional<Nearest> nearest(const TreePair& pair, double bound, const Tolerance& tolerance) {
+  return NearestSearch(pair, bound, tolerance).run();
 }
 
 }  // namespace aircut::collide

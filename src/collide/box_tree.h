@@ -84,8 +84,18 @@ struct TreePair {
   }
 };
 
-/// The nearest pair of triangles nearer than `bound`, in A's frame; nothing when there is none.
-std::optional<ClosestPoints> nearest(const TreePair& pair, double bound);
+/// How far from the truth a distance may stay: parts of the trees that can't improve it by more
+/// than this aren't looked at.
+struct Tolerance {
+  double relative = 0;  ///< share of the distance, below 1
+  double absolute = 0;  ///< mm
+};
+struct Nearest {
+  ClosestPoints points;  ///< of a true pair: an upper bound
+  double low = 0;        ///< lower bound of the distance, mm; at most the tolerance below
+};
+/// A nearest pair of triangles nearer than `bound`, in A's frame; nothing when there is none.
+std::optional<Nearest> nearest(const TreePair& pair, double bound, const Tolerance& tolerance);
 
 /// Calls visit(triangle of A, triangle of B in A's frame) for pairs whose boxes are within `reach`,
 /// until it returns false.

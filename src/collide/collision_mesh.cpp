@@ -83,10 +83,11 @@ double box_distance(const CollisionMesh& a, const CollisionMesh& b, const Pose& 
   return std::max(spheres, boxes);
 }
 
-std::optional<ClosestPoints> surface_distance(const CollisionMesh& a, const CollisionMesh& b,
-                                              const Pose& X_AB, double bound) {
+std::optional<Nearest> surface_distance(const CollisionMesh& a, const CollisionMesh& b,
+                                        const Pose& X_AB, double bound,
+                                        const Tolerance& tolerance) {
   if (!a.impl().tree || !b.impl().tree) return std::nullopt;
-  return nearest(TreePair(*a.impl().tree, *b.impl().tree, X_AB), bound);
+  return nearest(TreePair(*a.impl().tree, *b.impl().tree, X_AB), bound, tolerance);
 }
 
 std::optional<Vec3> contained_point(const CollisionMesh& a, const CollisionMesh& b,
@@ -104,8 +105,9 @@ Distance distance(const CollisionMesh& a, const Pose& X_WA, const CollisionMesh&
                   const Pose& X_WB, double bound) {
   const Pose X_AB = X_WA.inverse() * X_WB;
   Distance out{.value = bound, .on_a = Vec3::Zero(), .on_b = Vec3::Zero(), .capped = true};
-  if (const auto points = surface_distance(a, b, X_AB, bound))
-    out = Distance{std::sqrt(points->squared), X_WA * points->on_a, X_WA * points->on_b, false};
+  if (const auto found = surface_distance(a, b, X_AB, bound))
+    out = Distance{std::sqrt(found->points.squared), X_WA * found->points.on_a,
+                   X_WA * found->points.on_b, false};
   if (out.value > 0)
     if (const auto inner = contained_point(a, b, X_AB))
       out = Distance{0, X_WA * *inner, X_WA * *inner, false};

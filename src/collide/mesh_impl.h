@@ -27,8 +27,9 @@ struct CollisionMesh::Impl {
 double box_distance(const CollisionMesh& a, const CollisionMesh& b, const Pose& X_AB);
 
 /// Surfaces only; nothing when none is nearer than `bound`.
-std::optional<ClosestPoints> surface_distance(const CollisionMesh& a, const CollisionMesh& b,
-                                              const Pose& X_AB, double bound);
+std::optional<Nearest> surface_distance(const CollisionMesh& a, const CollisionMesh& b,
+                                        const Pose& X_AB, double bound,
+                                        const Tolerance& tolerance = {});
 
 /// A corner (A's frame) of a shell of one body that is inside the other; its surfaces must be
 /// apart.

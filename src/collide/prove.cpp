@@ -33,6 +33,9 @@ constexpr std::uint64_t max_march_queries = 50'000;
 constexpr std::uint64_t max_refine_queries = 20'000;
 /// Of the size of the scene: the error of a distance (triangle_pair.cpp) and of the poses.
 constexpr double relative_slack = 2e-8;
+/// Distances of the march may be too small by this share: that costs a little more steps and saves
+/// most of the search.
+constexpr double march_tolerance = 0.1;
 /// A time step that must be gone even where the travel bound is too large for any step: a share of
 /// the interval.
 constexpr double smallest_share = 1.0 / 4096;
@@ -47,8 +50,8 @@ struct Piece {
 
 struct Sample {
   double t = 0;
-  double distance = infinity;  ///< of the surfaces; at least the true one when capped
-  bool capped = true;
+  double low = 0;              ///< lower bound of the surfaces' distance but for rounding
+  double distance = infinity;  ///< of the surfaces; infinite when nothing is near enough to know
   ClosestPoints points;
 };
 
@@ -153,8 +156,10 @@ class Proof {
     // Boxes are enough when they clear the rest of the interval, or a good part of the bodies'
     // size.
     const double enough = far_floor() + slack_ + std::min(padded(rest), 0.25 * size);
-    last_ = sample(t_, X_AB, cap, enough);
-    low_ = std::max(last_.distance - slack_, 0.0);
+    last_ = sample(t_, X_AB, cap, enough, {.relative = march_tolerance});
+    if (last_.low < far_floor() && last_.distance >= far_floor())
+      last_ = sample(t_, X_AB, cap, enough, {});
+    low_ = std::max(last_.low - slack_, 0.0);
     const bool touching = last_.distance <= slack_;
     if (!touching && !separate_) {
       const auto inner = contained_point(a_, b_, X_AB);
@@ -170,20 +175,22 @@ class Proof {
   }
 
   /// Surface distance up to `cap`; boxes alone if they are `enough` apart.
-  Sample sample(double t, const Pose& X_AB, double cap, double enough) {
+  Sample sample(double t, const Pose& X_AB, double cap, double enough, const Tolerance& tolerance) {
     Sample out;
     out.t = t;
     ++queries_;
     const double boxes = box_distance(a_, b_, X_AB);
     if (boxes >= std::min(enough, cap)) {
-      out.distance = boxes;
+      out.low = boxes;
       return out;
     }
     ++cost_.distance_queries;
-    const auto points = surface_distance(a_, b_, X_AB, cap);
-    out.capped = !points.has_value();
-    out.distance = points ? std::sqrt(points->squared) : cap;
-    if (points) out.points = *points;
+    const auto found = surface_distance(a_, b_, X_AB, cap, tolerance);
+    out.low = found ? found->low : cap;
+    if (found) {
+      out.distance = std::sqrt(found->points.squared);
+      out.points = found->points;
+    }
     return out;
   }
 
@@ -295,12 +302,13 @@ class Proof {
         continue;
       }
       const double reach = padded(std::max(*before, *after));
-      const Sample at = sample(middle, *X_AB, high + reach, high + reach);
+      const Sample at =
+          sample(middle, *X_AB, high + reach, high + reach, {.absolute = 0.1 * width});
       if (at.distance < high) {
         high = at.distance;
         near_ = at;
       }
-      const double low = at.distance - slack_;
+      const double low = at.low - slack_;
       open.push({piece.t0, middle, std::max(piece.low, low - padded(*before))});
       open.push({middle, piece.t1, std::max(piece.low, low - padded(*after))});
     }
