@@ -186,6 +186,8 @@ void Painter::set_body_program(const Frame& frame, const Program& program) const
   program.set("right", frame.stage.lamps.right);
   program.set("ahead", frame.stage.lamps.ahead);
   program.set("light", 0);
+  program.set("target", Vec3(view.eye - view.axes.row(2).transpose() * view.distance));
+  program.set("studio_bend", 0.55 / (view.mm_per_pixel * view.height));
 }
 
 void Painter::draw_backdrop(const Frame& frame) const {

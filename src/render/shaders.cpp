@@ -75,6 +75,9 @@ uniform vec3 key, fill, rim;  // directions to the lamps
 uniform vec3 right;           // of the camera, horizontal
 uniform vec3 ahead;           // horizontal direction into the picture
 uniform float use_light;
+// The studio's walls are near: a flat face reflects another part of them at each of its ends.
+uniform vec3 target;          // world
+uniform float studio_bend;    // per mm
 out vec4 color;
 
 float ggx(float nh, float a) {
@@ -105,10 +108,12 @@ vec3 studio(vec3 r, float soft) {
   float side = dot(r, right);
   float depth = dot(r, ahead);
   float overhead = smoothstep(0.62 - soft, 0.80 + soft, h) * smoothstep(0.62 + soft, 0.2 - soft, abs(side + 0.15));
-  float left = smoothstep(0.50 - soft, 0.72 + soft, -side) * smoothstep(-0.1 - soft, 0.1 + soft, h)
-             * smoothstep(0.75 + soft, 0.5 - soft, h);
+  // The strips reach below the horizon: seen from above, upright shafts reflect what is there.
+  float upright = smoothstep(-0.85, -0.45, h) * smoothstep(0.75 + soft, 0.5 - soft, h);
+  float left = smoothstep(0.44 - soft, 0.66 + soft, -side) * upright;
+  float beside = 0.45 * smoothstep(0.62 - soft, 0.80 + soft, side) * upright;
   float far_wall = smoothstep(0.35 - soft, 0.95, depth) * smoothstep(-0.05 - soft, 0.3, h);
-  return c + vec3(1.00, 0.98, 0.95) * (1.1 * overhead + 0.75 * left) - vec3(0.16) * far_wall;
+  return c + vec3(1.00, 0.98, 0.95) * (1.5 * overhead + 1.4 * left + beside) - vec3(0.16) * far_wall;
 }
 
 void main() {
@@ -124,8 +129,9 @@ void main() {
 
   // A fifth of the key light comes round every corner, so that shapes in shadow keep their form.
   vec3 c = lamp(n, v, key, diffuse, f0, a) * vec3(2.55, 2.49, 2.38) * mix(0.22, 1.0, g.y);
-  c += lamp(n, v, fill, diffuse, f0, a) * vec3(0.62, 0.68, 0.78);
-  c += lamp(n, v, rim, diffuse, f0, a) * vec3(0.80, 0.84, 0.90) * mix(1.0, g.x, 0.5);
+  // Fill and rim have no highlights of their own: the studio's soft boxes stand for those.
+  c += diffuse * (max(dot(n, fill), 0.0) * vec3(0.20, 0.22, 0.25) +
+                  max(dot(n, rim), 0.0) * mix(0.5, 1.0, g.x) * vec3(0.26, 0.27, 0.29));
 
   vec3 sky = mix(vec3(0.36, 0.35, 0.34), vec3(0.78, 0.82, 0.88), n.z * 0.5 + 0.5);
   c += diffuse * sky * 0.62 * g.x;
@@ -134,12 +140,12 @@ void main() {
   float a4 = min(r0.x * r0.x, exp2(-9.28 * nv)) * r0.x + r0.y;
   vec2 ab = vec2(-1.04, 1.04) * a4 + r0.zw;
   float shade = g.x * mix(0.72, 1.0, g.y);
-  c += studio(reflect(-v, n), roughness * 0.75) * (f0 * ab.x + ab.y) * shade;
+  c += studio(normalize(reflect(-v, n) + (world_position - target) * studio_bend), roughness * 0.6) * (f0 * ab.x + ab.y) * shade;
 
-  c *= 1.22;
+  c *= 1.34;
   c = c * (1.0 + c / 7.0) / (1.0 + c);
   c = pow(c, vec3(1.0 / 2.2));
-  c = clamp((c - 0.5) * 1.10 + 0.525, 0.0, 1.0);
+  c = clamp((c - 0.5) * 1.13 + 0.525, 0.0, 1.0);
   float rim_opacity = opacity < 1.0 ? mix(0.85, opacity, smoothstep(0.0, 0.55, nv)) : 1.0;
   color = vec4(c, rim_opacity);
 }
@@ -266,12 +272,12 @@ void main() {
   float thick = tolerance * (parallel > 0.5 ? 1.0 : g.w);
   vec2 sum = texelFetch(light, pixel, 0).xy;
   float weight = 1.0;
-  for (int i = -4; i <= 4; ++i) {
+  for (int i = -2; i <= 2; ++i) {
     if (i == 0) continue;
     ivec2 at = clamp(pixel + i * along, ivec2(0), last);
     vec4 o = texelFetch(geometry, at, 0);
     float off = abs(dot(g.xyz, position_at(at, o.w) - p));
-    float w = max(1.0 - off / thick, 0.0) * max(dot(g.xyz, o.xyz), 0.0) * (abs(i) == 4 ? 0.5 : 1.0);
+    float w = max(1.0 - off / thick, 0.0) * max(dot(g.xyz, o.xyz), 0.0) * (abs(i) == 2 ? 0.5 : 1.0);
     sum += w * texelFetch(light, at, 0).xy;
     weight += w;
   }
