@@ -150,7 +150,7 @@ def main():
             posted.append(controller)
             active = controller
         posted.append(operation)
-    preamble = "G17 G54 G40 G49 G80 G90 G94\nG53 G0 Z0\n"
+    preamble = "G17 G54 G40 G49 G80 G90 G94\nG64 P0.01\nG53 G0 Z0\n"
     postamble = "M05\nG53 G0 Z0\nG17 G54 G90 G80 G40\nM2\n"
     linuxcnc_post.export(posted, OUT, f'--no-header --no-show-editor --preamble="{preamble}" --postamble="{postamble}"')
     with open(OUT, encoding="utf-8") as file:
