@@ -79,7 +79,9 @@ BoxTree::BoxTree(const TriangleMesh& mesh, const std::vector<char>& solid) {
   build(source, order, 0, n);
   triangles_.reserve(n);
   for (const std::uint32_t i : order) {
-    triangles_.push_back(source[i]);
+    const Triangle& t = source[i];
+    triangles_.push_back(t);
+    normals_.push_back((t[1] - t[0]).cross(t[2] - t[0]).normalized());
     solid_.push_back(solid[i]);
   }
 }
@@ -278,8 +280,16 @@ class NearestSearch {
   void compare(const BoxTree::Node& na, const BoxTree::Node& nb) {
     for (std::uint32_t k = nb.first; k < nb.first + nb.count; ++k) {
       const Triangle tb = pair_.triangle_b_in_a(k);
+      const Vec3 normal_b = pair_.R * pair_.b.unit_normal(k);
       for (std::uint32_t i = na.first; i < na.first + na.count; ++i) {
-        const ClosestPoints points = closest_points(pair_.a.triangle(i), tb);
+        const Triangle& ta = pair_.a.triangle(i);
+        const double apart =
+            std::max({gap_along(pair_.a.unit_normal(i), ta, tb), gap_along(normal_b, ta, tb), 0.0});
+        if (apart * apart >= worth_) {
+          left_out_ = std::min(left_out_, apart * apart);
+          continue;
+        }
+        const ClosestPoints points = closest_points(ta, tb);
         if (points.squared >= best_.squared) continue;
         lower_to(std::sqrt(points.squared));
         best_ = points;

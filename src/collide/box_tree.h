@@ -31,7 +31,7 @@ class BoxTree {
   };
   const Node& node(std::uint32_t i) const { return nodes_[i]; }
   const Triangle& triangle(std::uint32_t i) const { return triangles_[i]; }
-  std::size_t size() const { return triangles_.size(); }
+  const Vec3& unit_normal(std::uint32_t i) const { return normals_[i]; }
 
   /// Whether p is inside of the closed shells.
   bool inside(const Vec3& p) const;
@@ -55,6 +55,7 @@ class BoxTree {
 
   std::vector<Node> nodes_;
   std::vector<Triangle> triangles_;
+  std::vector<Vec3> normals_;
   std::vector<char> solid_;
 };
 

@@ -34,27 +34,32 @@ struct Best {
   }
 };
 
+double clamped(double share) { return std::min(std::max(share, 0.0), 1.0); }
+
 /// Parameter in [0, 1] of the point of p + t·d nearest to q.
 double nearest_parameter(const Vec3& p, const Vec3& d, const Vec3& q) {
   const double dd = d.squaredNorm();
-  return dd > 0 ? std::clamp(d.dot(q - p) / dd, 0.0, 1.0) : 0.0;
+  return dd > 0 ? clamped(d.dot(q - p) / dd) : 0.0;
 }
 
-/// Edges p + s·u of A and q + t·v of B. Ends against the other edge are offered for both.
-void offer_edges(const Vec3& p, const Vec3& u, const Vec3& q, const Vec3& v, Best& best) {
+/// Edges p + s·u of A and q + t·v of B, and the near end of each against the other; the far ends
+/// are the near ends of the next edges. `uu`, `vv` are squared lengths, not 0.
+void offer_edges(const Vec3& p, const Vec3& u, double uu, const Vec3& q, const Vec3& v, double vv,
+                 Best& best) {
   const Vec3 w = p - q;
-  const double uu = u.squaredNorm(), uv = u.dot(v), vv = v.squaredNorm(), uw = u.dot(w),
-               vw = v.dot(w);
+  const double uv = u.dot(v), uw = u.dot(w), vw = v.dot(w);
+  const auto offer = [&](double s, double t) {
+    const double squared = (w + s * u - t * v).squaredNorm();
+    if (squared < best.points.squared) best.points = {squared, p + s * u, q + t * v};
+  };
+  offer(0, clamped(vw / vv));
+  offer(clamped(-uw / uu), 0);
   const double denominator = uu * vv - uv * uv;
-  if (denominator > 0) {
-    const double s = std::clamp((uv * vw - vv * uw) / denominator, 0.0, 1.0);
-    const double t = nearest_parameter(q, v, p + s * u);
-    const Vec3 on_b = q + t * v;
-    best.offer(p + nearest_parameter(p, u, on_b) * u, on_b);
-  }
-  // The far ends are the near ends of the next edges.
-  best.offer(p, q + nearest_parameter(q, v, p) * v);
-  best.offer(p + nearest_parameter(p, u, q) * u, q);
+  const double above = uv * vw - vv * uw;
+  if (!(above > 0 && above < denominator)) return;  // outside of A's edge: an end is nearer
+  const double s = above / denominator;
+  const double t = (vw + s * uv) / vv;
+  if (t > 0 && t < 1) offer(s, t);
 }
 
 struct Face {
@@ -132,15 +137,27 @@ ClosestPoints closest_points(const Triangle& a, const Triangle& b) {
   Vec3 point;
   if (pierces(a, b, face_b, point) || pierces(b, a, face_a, point)) return {0, point, point};
   Best best;
+  std::array<Vec3, 3> v;
+  std::array<double, 3> vv{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    v[k] = b[(k + 1) % 3] - b[k];
+    vv[k] = v[k].squaredNorm();
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const Vec3 u = a[(i + 1) % 3] - a[i];
-    for (std::size_t k = 0; k < 3; ++k) offer_edges(a[i], u, b[k], b[(k + 1) % 3] - b[k], best);
+    const double uu = u.squaredNorm();
+    for (std::size_t k = 0; k < 3; ++k) offer_edges(a[i], u, uu, b[k], v[k], vv[k], best);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     if (foot_in_face(a[i], b, face_b, point)) best.offer(a[i], point);
     if (foot_in_face(b[i], a, face_a, point)) best.offer(point, b[i]);
   }
   return best.points;
+}
+
+double gap_along(const Vec3& unit, const Triangle& a, const Triangle& b) {
+  const Range x = range_along(unit, a), y = range_along(unit, b);
+  return std::max(y.low - x.high, x.low - y.high);
 }
 
 double squared_distance(const Vec3& p, const Triangle& t) {

@@ -16,6 +16,10 @@ struct ClosestPoints {
 /// Closest points of two triangles; squared distance 0 with a common point when they intersect.
 ClosestPoints closest_points(const Triangle& a, const Triangle& b);
 
+/// Gap of the triangles' ranges along a unit vector, a lower bound of their distance; negative when
+/// the ranges overlap, mm.
+double gap_along(const Vec3& unit, const Triangle& a, const Triangle& b);
+
 /// Squared distance of a point from a triangle, mm².
 double squared_distance(const Vec3& p, const Triangle& triangle);
 
