@@ -88,8 +88,8 @@ struct Renderer::Impl {
   }
   int factor() const { return size.supersample == Supersample::twice ? 2 : 1; }
   std::vector<unsigned char> read_tile(const Tile& tile) const;
-  // Depth (0 near, 1 far) in the framebuffer that is bound.
-  double nearest_depth(int x, int y) const;
+  // Depths (0 near, 1 far) in the framebuffer that is bound.
+  std::vector<float> read_depths(int width, int height) const;
   Expected<void> start();
 };
 
@@ -121,10 +121,10 @@ std::vector<unsigned char> Renderer::Impl::read_tile(const Tile& tile) const {
   return out;
 }
 
-double Renderer::Impl::nearest_depth(int x, int y) const {
-  float out = 1;
-  gl.ReadPixels(x, y, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &out);
-  return static_cast<double>(out);
+std::vector<float> Renderer::Impl::read_depths(int width, int height) const {
+  std::vector<float> out(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  gl.ReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, out.data());
+  return out;
 }
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
@@ -184,6 +184,18 @@ std::vector<int> decode_ids(const std::vector<unsigned char>& pixels) {
   return out;
 }
 
+// What the bodies that are not in alarm hide: `at` is the depth of the contact, `before` that of
+// the foreground's far end.
+void look_at_depths(ContactView& view, const std::vector<float>& depths, double at, double before) {
+  const auto middle =
+      static_cast<std::size_t>(view.height / 2) * static_cast<std::size_t>(view.width) +
+      static_cast<std::size_t>(view.width / 2);
+  view.point_is_open = static_cast<double>(depths[middle]) >= at;
+  const auto near = std::count_if(depths.begin(), depths.end(),
+                                  [&](float d) { return static_cast<double>(d) < before; });
+  view.foreground = static_cast<double>(near) / static_cast<double>(depths.size());
+}
+
 }  // namespace
 
 std::vector<int> Renderer::visible_pixels(const Scene& scene, const Camera& camera) {
@@ -226,19 +238,21 @@ Camera Renderer::camera_for_finding(const std::vector<DrawBody>& bodies, const V
   scene.bodies = bodies;
   scene.floor = false;
   Camera best;
-  double best_score = -1;
+  double best_score = -1e300;
+  int rank = 0;
   for (const Vec3& direction : candidate_directions()) {
     const Camera camera = contact_camera(point, direction, span, aspect);
     const Stage stage = make_stage(scene, camera, *r.meshes, width, height);
     painter.clear_ids(tile, false);
     painter.draw_ids(stage, tile,
                      [](const DrawBody& body) { return !body.translucent && !body.highlight; });
-    ContactView view{
-        width, height, {}, r.nearest_depth(width / 2, height / 2) >= stage.view.depth(point)};
+    ContactView view{width, height, {}};
+    look_at_depths(view, r.read_depths(width, height), stage.view.depth(point),
+                   stage.view.depth(point + 0.6 * span * direction));
     painter.draw_ids(stage, tile,
                      [](const DrawBody& body) { return !body.translucent && body.highlight; });
     view.ids = decode_ids(r.read_tile(tile));
-    const double score = contact_score(view, bodies);
+    const double score = contact_score(view, bodies) - cost_of_rank * rank++;
     if (score > best_score + 1e-9) {
       best = camera;
       best_score = score;

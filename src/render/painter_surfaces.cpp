@@ -1,0 +1,117 @@
+// Backdrop, floor and the surfaces of bodies.
+#include <algorithm>
+
+#include "render/painter_frame.h"
+
+namespace aircut::render {
+namespace {
+
+Vec3 to_linear(const Vec3& display) { return display.array().pow(2.2).matrix(); }
+
+struct Material {
+  Vec3 base;  // linear
+  double metal = 0, roughness = 0.5;
+};
+
+// Grey means bare metal, colour means paint: machine files give no more than a colour.
+Material material_of(const machine::Color& color) {
+  const Vec3 c = display_colour(color);
+  const double saturation = c.maxCoeff() > 0 ? (c.maxCoeff() - c.minCoeff()) / c.maxCoeff() : 0.0;
+  Material out;
+  out.base = to_linear(c);
+  // Nearly white and nearly black are paint too.
+  out.metal = std::clamp(1.3 - 6 * saturation, 0.0, 1.0) *
+              std::clamp((c.maxCoeff() - 0.30) / 0.2, 0.0, 1.0) *
+              std::clamp((0.875 - c.maxCoeff()) / 0.05, 0.0, 1.0);
+  out.roughness = 0.46 - 0.12 * out.metal;
+  return out;
+}
+
+}  // namespace
+
+void Painter::draw_backdrop(const Frame& frame) const {
+  const Program& program = programs_->background;
+  program.use();
+  const double w = frame.view().width, h = frame.view().height;
+  program.set("frame", Eigen::Vector4d(1 / w, 1 / h, frame.tile.x / w, frame.tile.y / h));
+  gl_->Disable(GL_DEPTH_TEST);
+  screen_triangle();
+  gl_->Enable(GL_DEPTH_TEST);
+}
+
+void Painter::draw_floor(const Frame& frame) const {
+  if (!frame.stage.floor) return;
+  const Floor& floor = *frame.stage.floor;
+  const Program& program = programs_->floor;
+  set_body_program(frame, program);
+  const Vec3 c = frame.stage.solid.center();
+  program.set("square", Eigen::Vector4d(c.x(), c.y(), floor.height, floor.extent));
+  // Lines pass through the world's origin.
+  program.set("grid", Vec3(-frame.view().centre.x(), -frame.view().centre.y(), floor.step));
+  program.set("fade", floor.extent * 0.75);
+  program.set("pixel", frame.line_scale);
+  gl_->Disable(GL_CULL_FACE);
+  gl_->Enable(GL_BLEND);
+  gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  gl_->Disable(GL_BLEND);
+}
+
+void Painter::set_material(const StageItem& item, const Frame& frame) const {
+  const Program& program = programs_->body;
+  Material material = material_of(item.body->color);
+  if (item.body->highlight) {
+    material.base =
+        to_linear(alarm_colour(frame.alarm_number[static_cast<std::size_t>(item.index)]));
+    material.metal = 0;
+    material.roughness = 0.5;
+  }
+  program.set("model", item.model);
+  program.set("base", material.base);
+  program.set("metal", material.metal);
+  program.set("roughness", material.roughness);
+}
+
+void Painter::draw_solids(const Frame& frame) const {
+  const Gl& gl = *gl_;
+  set_body_program(frame, programs_->body);
+  programs_->body.set("use_light", 1.0);
+  programs_->body.set("opacity", 1.0);
+  gl.Enable(GL_POLYGON_OFFSET_FILL);
+  gl.PolygonOffset(1.0f, 1.0f);
+  gl.Enable(GL_STENCIL_TEST);
+  gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  for (const StageItem& item : frame.stage.items) {
+    if (item.body->translucent || !in_view(item.box, frame.to_clip)) continue;
+    gl.StencilFunc(GL_ALWAYS, item.body->highlight ? seen : 0, 0xFF);
+    set_material(item, frame);
+    cull(*item.mesh);
+    item.mesh->draw_triangles();
+  }
+  gl.Disable(GL_STENCIL_TEST);
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+void Painter::draw_translucent(const Frame& frame) const {
+  const Gl& gl = *gl_;
+  const auto& items = frame.stage.items;
+  for (auto it = items.rbegin(); it != items.rend(); ++it) {
+    if (!it->body->translucent) continue;
+    set_body_program(frame, programs_->body);
+    programs_->body.set("use_light", 0.0);
+    programs_->body.set("opacity", it->body->highlight ? 0.45 : 0.16);
+    set_material(*it, frame);
+    gl.Enable(GL_BLEND);
+    gl.DepthMask(GL_FALSE);
+    gl.Enable(GL_CULL_FACE);
+    gl.CullFace(GL_FRONT);
+    it->mesh->draw_triangles();
+    gl.CullFace(GL_BACK);
+    it->mesh->draw_triangles();
+    set_line_program(frame, 1.0, edge_lift, 1);
+    draw_item_edges(frame, *it);
+  }
+  gl.DepthMask(GL_TRUE);
+  gl.Disable(GL_BLEND);
+}
+
+}  // namespace aircut::render
