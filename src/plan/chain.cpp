@@ -11,6 +11,7 @@
 #include "plan/chain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace aircut::plan {
@@ -19,6 +20,19 @@ namespace {
 LimitedBy longest(const std::array<double, 5>& time) {
   const auto worst = std::max_element(time.begin(), time.end());
   return *worst > 0 ? static_cast<LimitedBy>(worst - time.begin()) : LimitedBy::none;
+}
+
+// Rounded down to 36 bits. The two passes often only tend towards each other; rounding makes them
+// the same number once they are that near (a share of 3e-11).
+double rounded_down(double b) {
+  if (!(b > 0) || std::isinf(b)) return b;
+  int exponent = 0;
+  const double fraction = std::frexp(b, &exponent);
+  return std::ldexp(std::floor(std::ldexp(fraction, 36)), exponent - 36);
+}
+
+double entry_speed(const Piece& piece, const Controllable& controllable) {
+  return rounded_down(std::min(piece.entry, controllable.front()));
 }
 
 }  // namespace
@@ -49,8 +63,8 @@ void Chain::brake_all() {
   double b_end = 0;
   for (std::size_t i = window_.size(); i-- > 0;) {
     const Piece& piece = window_[i].piece;
-    const double b = std::min(piece.entry, brake(piece.grid, b_end, window_[i].stop));
-    b_end = b / piece.per_exit;
+    brake(piece.grid, b_end, window_[i].stop);
+    b_end = entry_speed(piece, window_[i].stop) / piece.per_exit;
   }
 }
 
@@ -61,9 +75,9 @@ void Chain::emit_final() {
   for (std::size_t i = window_.size(); i-- > 0;) {
     Item& item = window_[i];
     const Piece& piece = item.piece;
-    const double fast = std::min(piece.entry, brake(piece.grid, b_fast, item.fast));
-    const double stop = std::min(piece.entry, item.stop.front());
-    if (fast == stop) {
+    brake(piece.grid, b_fast, item.fast);
+    const double fast = entry_speed(piece, item.fast);
+    if (fast == entry_speed(piece, item.stop)) {
       final_count = i;
       break;
     }

@@ -140,8 +140,10 @@ struct Segment {
 };
 
 struct Options {
-  double period = 0.001;     ///< servo period, s
-  double optional_stop = 0;  ///< s
+  double period = 0.001;           ///< servo period, s
+  double optional_stop = 0;        ///< s
+  int tool = 0;                    ///< in the spindle at the start
+  std::size_t max_nodes = 200000;  ///< look-ahead window; a node takes about 150 bytes
 };
 
 class Planner {

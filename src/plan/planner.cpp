@@ -56,9 +56,6 @@ class Planner::Impl {
 
 namespace {
 
-// Nodes in the window at most; with six joints a node takes about 150 bytes.
-constexpr std::size_t max_nodes = 200000;
-
 Diagnostic at(const canon::Command& command, std::string kind, std::string message) {
   return make_error(std::move(kind), command.span, std::move(message));
 }
@@ -69,8 +66,9 @@ Planner::Impl::Impl(const machine::Machine& machine, const machine::JointVector&
                     Options options)
     : machine_(machine),
       options_(options),
-      shaper_(machine, start, options.period, max_nodes),
-      merger_(shaper_) {
+      shaper_(machine, start, options.period, options.max_nodes),
+      merger_(shaper_),
+      tool_(options.tool) {
   if (start.size() != machine.joint_count()) {
     broken_ = make_error("setup_invalid", "the start has " + std::to_string(start.size()) +
                                               " joint values, the machine " +

@@ -152,16 +152,15 @@ Ride ride_uniform(const Grid& grid, double b_start, double b_end) {
 
 }  // namespace
 
-double brake(const Grid& grid, double b_end, Controllable& out) {
+void brake(const Grid& grid, double b_end, Controllable& out) {
   const std::size_t n = grid.nodes();
   out.resize(n);
   out[n - 1] = std::min(grid.cap[n - 1], b_end);
   if (grid.uniform) {
     out[0] = std::min(grid.cap[0], out[n - 1] + 2 * grid.uniform_a * grid.length());
-    return out[0];
+    return;
   }
   for (std::size_t k = n - 1; k-- > 0;) out[k] = Interval(grid, k, out[k + 1]).largest_b();
-  return out[0];
 }
 
 Ride accelerate(const Grid& grid, const Controllable& controllable, double b_start) {

@@ -10,8 +10,8 @@ namespace aircut::plan {
 /// Squared speeds that can be braked from, per node of one piece.
 using Controllable = std::vector<double>;
 
-/// Fills `out` for a piece that must be left with b ≤ `b_end`; returns out.front().
-double brake(const Grid& grid, double b_end, Controllable& out);
+/// Fills `out` for a piece that must be left with b ≤ `b_end`.
+void brake(const Grid& grid, double b_end, Controllable& out);
 
 /// Result of carrying a piece out.
 struct Ride {

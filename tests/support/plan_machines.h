@@ -76,10 +76,13 @@ inline AxisValues xyz(double x, double y, double z) {
 class Program {
  public:
   Program& add(canon::Action action) {
+    return add_at(static_cast<std::uint32_t>(commands_.size()) + 1, std::move(action));
+  }
+  Program& add_at(std::uint32_t block, canon::Action action) {
     canon::Command command;
     command.action = std::move(action);
-    command.block = static_cast<std::uint32_t>(commands_.size()) + 1;
-    command.span.line = command.block;
+    command.block = block;
+    command.span.line = block;
     commands_.push_back(std::move(command));
     return *this;
   }
