@@ -15,6 +15,7 @@
 #include <filesystem>
 
 #include "geometry/mesh_import.h"
+#include "geometry/ply.h"
 #include "geometry/stl.h"
 
 namespace aircut {
@@ -87,6 +88,17 @@ bool states_its_unit(const std::string& extension) {
   return extension == "gltf" || extension == "glb" || extension == "dae" || extension == "3mf";
 }
 
+tl::expected<TriangleMesh, std::string> triangles_of(std::string_view bytes,
+                                                     const std::string& extension,
+                                                     const std::string& folder,
+                                                     const MeshFileOptions& options) {
+  if (extension == "stl") return geometry::read_stl(bytes, options.max_triangles);
+  if (extension == "ply") return geometry::read_ply(bytes, options.max_triangles);
+  return geometry::import_mesh(
+      {.bytes = bytes, .name = "mesh." + extension, .extension = extension, .folder = folder},
+      options);
+}
+
 Expected<TriangleMesh> read(std::string_view bytes, const std::string& path,
                             const std::string& folder, const MeshFileOptions& options) {
   const std::string extension = extension_of(path);
@@ -96,12 +108,7 @@ Expected<TriangleMesh> read(std::string_view bytes, const std::string& path,
                                                 bytes.size(), options.max_bytes)));
   if (bytes.empty()) return unexpected(invalid(path, "is empty"));
 
-  auto raw = extension == "stl" ? geometry::read_stl(bytes, options.max_triangles)
-                                : geometry::import_mesh({.bytes = bytes,
-                                                         .name = "mesh." + extension,
-                                                         .extension = extension,
-                                                         .folder = folder},
-                                                        options);
+  auto raw = triangles_of(bytes, extension, folder, options);
   if (!raw) return unexpected(invalid(path, raw.error()));
 
   const double unit = states_its_unit(extension) ? 1.0 : options.unit_mm;

@@ -1,4 +1,4 @@
-// Import of OBJ, PLY, COLLADA, glTF and 3MF through assimp, with its reach cut down.
+// Import of OBJ, COLLADA, glTF and 3MF through assimp, with its reach cut down.
 //
 // Only the importer of the file's extension stays registered. All files go through an IOSystem of
 // our own: the main file is in memory already; a file that it names (OBJ materials, glTF buffers)
