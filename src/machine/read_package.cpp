@@ -198,6 +198,7 @@ void read_collision(config::Table& top, Machine& machine, double unit_mm) {
   std::vector<std::string> known;
   for (const Body& body : machine.bodies()) known.push_back(body.name);
   for (const Link& link : machine.links()) known.push_back(link.name);
+  for (const Fixture& fixture : machine.fixtures()) known.push_back(fixture.name);
   const auto add = [&](const std::vector<std::string>& pair, const SourceSpan& span,
                        std::string reason) {
     const auto fail = [&](std::string message) {
@@ -239,6 +240,15 @@ void check_body_names(config::Table& top, const Machine& machine) {
 
 }  // namespace
 
+Diagnostic summary(const Diagnostics& problems, const std::string& kind, const std::string& what) {
+  const auto first =
+      std::find_if(problems.list().begin(), problems.list().end(),
+                   [](const Diagnostic& d) { return d.severity == Severity::error; });
+  return make_error(kind, first->span,
+                    what + " has " + std::to_string(problems.errors()) +
+                        (problems.errors() == 1 ? " error" : " errors"));
+}
+
 double read_units(config::Table& top, double fallback) {
   const std::string units = top.choice("units", {"mm", "inch"}, "");
   return units == "inch" ? 25.4 : units == "mm" ? 1.0 : fallback;
@@ -267,6 +277,9 @@ Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& tex
   machine->name_ = top.required_text("name");
   machine->dialect_ =
       top.choice("dialect", {"linuxcnc", "fanuc", "haas", "sinumerik", "grbl"}, "linuxcnc");
+  if (machine->dialect_ != "linuxcnc")
+    top.error("dialect", "the dialect '" + machine->dialect_ +
+                             "' is not supported by this version; only 'linuxcnc' is");
   ReadState state{*machine, read_units(top, 1.0), files};
 
   read_tree(top, state);
@@ -287,9 +300,7 @@ Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& tex
       problems.error("machine_invalid", top.span("kinematics"), *reason);
   for (const Diagnostic& problem : problems.list()) out.add(problem);
   if (problems.errors() == 0) return std::shared_ptr<const Machine>(machine);
-  return unexpected(make_error("machine_invalid", problems.list().front().span,
-                               "the machine's file has " + std::to_string(problems.errors()) +
-                                   (problems.errors() == 1 ? " error" : " errors")));
+  return unexpected(summary(problems, "machine_invalid", "the machine's file"));
 }
 
 Expected<std::shared_ptr<const Machine>> read_machine(const std::string& path, SourceMap& sources,

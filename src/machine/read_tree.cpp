@@ -59,12 +59,16 @@ void read_limits(config::Table& table, Joint& joint, double unit_mm) {
   joint.vmax = positive(table, "vmax", unit, "the top speed in units per second");
   joint.amax = positive(table, "amax", unit, "the top acceleration in units per second²");
   table.know("jmax");
+  if (table.has("jmax"))
+    table.report({Severity::warning, "machine_invalid",
+                  "the planner of this version does not keep 'jmax'", table.span("jmax")});
   if (table.has("jmax")) joint.jmax = positive(table, "jmax", unit, "");
 
+  // Wrapping changes which way a rotary axis turns; without it the motion would be another one.
   const std::string wrap = table.choice("wrap", {"none", "shortest", "modulo"}, "none");
-  joint.wrap = wrap == "modulo" ? Wrap::modulo : wrap == "shortest" ? Wrap::shortest : Wrap::none;
-  if (!rotary && joint.wrap != Wrap::none)
-    table.error("wrap", "only a rotary axis can wrap, '" + joint.name + "' is linear");
+  if (wrap != "none")
+    table.error("wrap", rotary ? "wrap = \"" + wrap + "\" is not supported by this version"
+                               : "only a rotary axis can wrap, '" + joint.name + "' is linear");
 
   joint.home = rotary ? table.number("home", 0) * unit : length(table, "home", 0, unit);
   if (joint.min <= joint.max && (joint.home < joint.min || joint.home > joint.max))

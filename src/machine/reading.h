@@ -28,6 +28,9 @@ Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& tex
 /// Likewise a setup.toml.
 Expected<Setup> read_setup_text(const SourceText& text, const Machine& machine, Diagnostics& out);
 
+/// One error that stands for the errors of a file, at the first one's place.
+Diagnostic summary(const Diagnostics& problems, const std::string& kind, const std::string& what);
+
 /// mm per length unit of the file: key `units`.
 double read_units(config::Table& top, double fallback);
 /// Key `schema`, which must not be newer than ours.

@@ -107,9 +107,7 @@ Expected<Setup> read_setup_text(const SourceText& text, const Machine& machine, 
   const Diagnostics problems = reader.finish();
   for (const Diagnostic& problem : problems.list()) out.add(problem);
   if (problems.errors() == 0) return setup;
-  return unexpected(make_error("setup_invalid", problems.list().front().span,
-                               "the setup has " + std::to_string(problems.errors()) +
-                                   (problems.errors() == 1 ? " error" : " errors")));
+  return unexpected(summary(problems, "setup_invalid", "the setup"));
 }
 
 Expected<Setup> read_setup(const std::string& path, const Machine& machine, SourceMap& sources,

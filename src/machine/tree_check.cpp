@@ -24,6 +24,12 @@ std::string text_of(const Machine& machine, const JointVector& joints) {
   return text;
 }
 
+double distance(const AxisValues& a, const AxisValues& b) {
+  double sum = 0;
+  for (const Axis axis : all_axes) sum += (a[axis] - b[axis]) * (a[axis] - b[axis]);
+  return std::sqrt(sum);
+}
+
 std::string text_of(const Vec3& p) {
   return "(" + fixed(p.x(), 4) + ", " + fixed(p.y(), 4) + ", " + fixed(p.z(), 4) + ")";
 }
@@ -87,7 +93,8 @@ std::optional<std::string> tree_disagrees(const Machine& machine) {
     ++compared;
     if (auto reason = disagreement(machine, joints, *tip, poses)) return reason;
     const auto back = kinematics.inverse({*tip, {}}, joints);
-    if (!back || !((*back - joints).norm() <= tolerance_mm))
+    const auto again = back ? kinematics.forward(*back, {}) : tip;
+    if (!back || !again || !(distance(*again, *tip) <= tolerance_mm))
       return "the kinematics does not find its own position at " + text_of(machine, joints);
   }
   if (compared == 0) return "no joint position inside the limits can be assembled";

@@ -17,6 +17,10 @@ std::shared_ptr<const Machine> everything(SourceMap& sources) {
   std::string text;
   for (const Diagnostic& d : out.list()) text += format_gcc(d) + "\n";
   EXPECT_TRUE(machine) << text;
+  // A limit that the planner does not keep is named.
+  EXPECT_EQ(text, folder +
+                      "/machine.toml:31:8: warning: the planner of this version does not keep " +
+                      "'jmax' [machine_invalid]\n");
   return machine ? *machine : nullptr;
 }
 
@@ -26,7 +30,7 @@ TEST(ReadMachine, ReadsWhatTheFileSays) {
   ASSERT_TRUE(machine);
   EXPECT_EQ(machine->name(), "everything");
   EXPECT_EQ(machine->folder(), folder);
-  EXPECT_EQ(machine->dialect_, "haas");
+  EXPECT_EQ(machine->dialect_, "linuxcnc");
   EXPECT_EQ(machine->default_tools_, folder + "/tools.toml");
   EXPECT_EQ(machine->default_parameters_, folder + "/params.var");
   EXPECT_EQ(machine->rapid(), RapidMode::dogleg);
@@ -63,7 +67,7 @@ TEST(ReadMachine, ConvertsInchesAndDegreesOnce) {
   EXPECT_DOUBLE_EQ(tilt.amax, 2 * pi);
   EXPECT_DOUBLE_EQ(tilt.home, pi / 4);
   EXPECT_DOUBLE_EQ(tilt.origin.z(), 76.2);
-  EXPECT_EQ(tilt.wrap, Wrap::shortest);
+  EXPECT_EQ(tilt.wrap, Wrap::none);
   EXPECT_TRUE(std::isinf(tilt.jmax));
   // The kinematics' own lengths: tip = joint + offset.
   const auto tip = machine->kinematics().forward(machine->home(), {});
