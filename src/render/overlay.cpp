@@ -96,35 +96,41 @@ std::string length_text(double mm) { return fmt::format("{} mm", shortest(mm)); 
 // The strip along the lower edge: a light ground for small print, at any picture's bottom.
 constexpr double strip_height = 40, strip_bottom = 14, strip_inset = 12;
 
-double strip_base(const Image& image, const Layout& layout) {
-  return image.height - layout.px(strip_bottom + 13);  // base line of its text
+constexpr double triad_room = 138;  // at the left end
+
+// Base line of its text; `raised` for a second strip above the first one.
+double strip_base(const Image& image, const Layout& layout, double raised = 0) {
+  return image.height - raised - layout.px(strip_bottom + 13);
 }
 
-void draw_strip(Image& image, double x, double width, const Layout& layout) {
-  fill_round_rect(
-      image,
-      {x, image.height - layout.px(strip_bottom + strip_height), width, layout.px(strip_height)},
-      layout.px(6), with_alpha(white, 0.62));
+void draw_strip(Image& image, double x, double width, const Layout& layout, double raised = 0) {
+  fill_round_rect(image,
+                  {x, image.height - raised - layout.px(strip_bottom + strip_height), width,
+                   layout.px(strip_height)},
+                  layout.px(6), with_alpha(white, 0.62));
 }
 
 int small_text(const Layout& layout) {
   return std::max(7, static_cast<int>(std::lround(layout.text - layout.px(2))));
 }
 
-// A ruler in black and white whose length is right at the camera's target, and the floor's grid.
-void draw_scale(Image& image, const Stage& stage, const Fonts& fonts, const Layout& layout) {
+// A ruler in black and white whose length is right at the camera's target, and the floor's grid as
+// far as there is room. Returns the left end of what was drawn.
+double draw_scale(Image& image, const Stage& stage, const Fonts& fonts, const Layout& layout) {
   const double mm = round_down_125(stage.view.mm_per_pixel * layout.px(190));
   const double length = mm / stage.view.mm_per_pixel;
-  const double edge = layout.px(16), inset = layout.px(strip_inset);
-  const double right = image.width - edge - inset, base = strip_base(image, layout);
+  const double inset = layout.px(strip_inset), base = strip_base(image, layout);
+  const double right = image.width - layout.px(16) - inset;
+  const double room = right - inset - layout.px(triad_room);
   const int small = small_text(layout);
-  const std::string grid = stage.floor
-                               ? fmt::format("floor grid {} / {}", shortest(stage.floor->step),
-                                             length_text(stage.floor->step * 5))
-                               : "";
-  const double grid_width = grid.empty() ? 0 : fonts.width(grid, Face::sans, small) + inset;
+  std::string grid;
+  if (stage.floor)
+    grid = fmt::format("floor grid {} / {}", shortest(stage.floor->step),
+                       length_text(stage.floor->step * 5));
+  double grid_width = grid.empty() ? 0 : fonts.width(grid, Face::sans, small) + inset;
+  if (length + grid_width > room) grid_width = 0;
+  if (length > room) return image.width;
   const double left = right - length - grid_width;
-  if (left - inset < 0) return;  // a picture too narrow for a ruler
   draw_strip(image, left - inset, right - left + 2 * inset, layout);
   const double height = std::max(3.0, std::round(layout.px(5))), y = std::round(base - height + 3);
   fill_round_rect(image, {right - length - 1, y - 1, length + 2, height + 2}, 1, dark);
@@ -133,7 +139,8 @@ void draw_scale(Image& image, const Stage& stage, const Fonts& fonts, const Layo
   const std::string text = length_text(mm);
   fonts.draw(image, right - length / 2 - fonts.width(text, Face::sans, small) / 2, y - layout.px(5),
              text, Face::sans, small, dark);
-  if (!grid.empty()) fonts.draw(image, left, base, grid, Face::sans, small, soft);
+  if (grid_width > 0) fonts.draw(image, left, base, grid, Face::sans, small, soft);
+  return left - inset;
 }
 
 void draw_sample(Image& image, LineKind kind, double x, double y, double width,
@@ -150,8 +157,9 @@ void draw_sample(Image& image, LineKind kind, double x, double y, double width,
   stroke(0.82, 1);
 }
 
-// What the colours of the lines mean, for those that occur.
-void draw_legend(Image& image, const Scene& scene, const Fonts& fonts, const Layout& layout) {
+// What the colours of the lines mean, for those that occur; left of `limit`, or above it.
+void draw_legend(Image& image, const Scene& scene, const Fonts& fonts, const Layout& layout,
+                 double limit) {
   struct Row {
     LineKind kind;
     const char* text;
@@ -172,9 +180,11 @@ void draw_legend(Image& image, const Scene& scene, const Fonts& fonts, const Lay
       width += sample + gap + fonts.width(row.text, Face::sans, small) + space;
     }
   if (used.empty()) return;
-  const double inset = layout.px(strip_inset), base = strip_base(image, layout);
-  double x = layout.px(scene.triad ? 146 : 16) + inset;
-  draw_strip(image, x - inset, width + 2 * inset, layout);
+  const double inset = layout.px(strip_inset);
+  double x = layout.px(scene.triad ? triad_room + 8 : 16) + inset;
+  const double raised = x + width + 2 * inset > limit ? layout.px(strip_height + 6) : 0;
+  const double base = strip_base(image, layout, raised);
+  draw_strip(image, x - inset, width + 2 * inset, layout, raised);
   for (const Row& row : used) {
     draw_sample(image, row.kind, x, base - small * 0.36, sample, layout);
     x += sample + gap;
@@ -255,11 +265,12 @@ void draw_overlay(Image& image, const Scene& scene, const Stage& stage, const Fo
   for (const DrawMarker& marker : scene.markers)
     if (marker.at.allFinite())
       if (const auto at = stage.view.pixel(marker.at)) draw_marker(image, *at, layout);
+  double limit = image.width;
   if (scene.triad) {
     draw_triad(image, stage.view, fonts, layout);
-    draw_scale(image, stage, fonts, layout);
+    limit = draw_scale(image, stage, fonts, layout);
   }
-  draw_legend(image, scene, fonts, layout);
+  draw_legend(image, scene, fonts, layout, limit);
   draw_caption(image, scene.caption, fonts, layout);
 }
 

@@ -33,7 +33,6 @@ void Painter::draw_shadow_map(const Stage& stage) const {
   gl.DepthMask(GL_TRUE);
   gl.Disable(GL_BLEND);
   gl.Disable(GL_STENCIL_TEST);
-  gl.Disable(GL_CULL_FACE);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5f, 2.0f);
@@ -41,6 +40,7 @@ void Painter::draw_shadow_map(const Stage& stage) const {
   for (const StageItem& item : stage.items) {
     if (item.body->translucent) continue;
     programs_->depth.set("transform", Eigen::Matrix4d(stage.world_to_shadow * item.model));
+    cull(*item.mesh);
     item.mesh->draw_triangles();
   }
   gl.Disable(GL_POLYGON_OFFSET_FILL);
