@@ -29,8 +29,9 @@
 #include <memory>
 #include <new>
 #include <optional>
-#include <set>
 #include <utility>
+
+#include "geometry/zip.h"
 
 namespace aircut::geometry {
 namespace {
@@ -212,8 +213,50 @@ class Collector {
   TriangleMesh mesh_;
 };
 
+/// Length of a 3MF model's unit in mm, which the importer leaves out. Refuses archives that unpack
+/// to more than the limit.
+tl::expected<double, std::string> unit_of_3mf(std::string_view archive, std::size_t max_bytes) {
+  const auto entries = zip_entries(archive);
+  if (!entries)
+    return unexpected(std::string("is no 3MF file: its zip directory is missing or broken"));
+  std::uint64_t total = 0;
+  for (const ZipEntry& entry : *entries) total += entry.unpacked;
+  if (total > max_bytes)
+    return unexpected(
+        fmt::format("would unpack to {} bytes, more than the limit of {}", total, max_bytes));
+  const auto is_model = [](const ZipEntry& entry) { return entry.name.ends_with(".model"); };
+  const auto model = std::find_if(entries->begin(), entries->end(), is_model);
+  if (model == entries->end()) return unexpected(std::string("has no 3D model in its archive"));
+  constexpr std::size_t enough = 16'384;  // the model's element stands near the start
+  const auto start = unpack_start(archive, *model, enough);
+  if (!start) return unexpected(std::string("has a model that can't be unpacked"));
+  const std::size_t begin = start->find("<model");
+  if (begin == std::string::npos) return unexpected(std::string("has no <model> in its archive"));
+  const std::string tag = start->substr(begin, start->find('>', begin) - begin);
+  const std::size_t unit = tag.find(" unit=");
+  if (unit == std::string::npos) return 1.0;  // the format's default is the millimetre
+  const std::size_t open = unit + 6;
+  const std::size_t close = open < tag.size() ? tag.find(tag[open], open + 1) : std::string::npos;
+  const std::string word =
+      close == std::string::npos ? std::string() : tag.substr(open + 1, close - open - 1);
+  constexpr std::pair<std::string_view, double> units[] = {{"micron", 0.001},  {"millimeter", 1},
+                                                           {"centimeter", 10}, {"inch", 25.4},
+                                                           {"foot", 304.8},    {"meter", 1000}};
+  for (const auto& [name, mm] : units)
+    if (word == name) return mm;
+  return unexpected(fmt::format("has the unknown unit '{}'", printable(word)));
+}
+
 tl::expected<TriangleMesh, std::string> import_or_throw(const ImportSource& source,
                                                         const MeshFileOptions& options) {
+  double unit = 1;
+  if (source.extension == "gltf" || source.extension == "glb" || source.extension == "dae")
+    unit = 1000;  // the scene is in metres
+  if (source.extension == "3mf") {
+    const auto stated = unit_of_3mf(source.bytes, options.max_bytes);
+    if (!stated) return unexpected(stated.error());
+    unit = *stated;
+  }
   Assimp::Importer importer;
   keep_only(importer, source.extension);
   importer.SetIOHandler(new FolderSystem(source, options.max_bytes));  // the importer owns it
@@ -225,9 +268,7 @@ tl::expected<TriangleMesh, std::string> import_or_throw(const ImportSource& sour
     return unexpected(fmt::format("can't be read as {}: {}", source.extension,
                                   why.empty() ? "the importer gives no reason" : why));
   }
-  const bool in_metres =
-      source.extension == "gltf" || source.extension == "glb" || source.extension == "dae";
-  return Collector(*scene, in_metres ? 1000.0 : 1.0, options.max_triangles).collect();
+  return Collector(*scene, unit, options.max_triangles).collect();
 }
 
 }  // namespace
