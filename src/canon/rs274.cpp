@@ -28,7 +28,7 @@ struct Rs274Writer::State {
   // What the stream said.
   double unit_mm = 1;
   int system = 1;
-  AxisValues work_offset, g92_offset;
+  AxisValues work_offset, g92_offset, tool_offset;
   double rotation = 0;
   FeedMode feed_mode = FeedMode::per_minute;
   double moves_per_minute = 0;  // inverse time
@@ -274,6 +274,9 @@ struct Write {
       text += four(is_rotary(axis) ? value * degrees_per_radian : s.length(value));
     }
     s.line(text + ")");
+    // The controlled point stays, so the tip moves.
+    s.tip += s.tool_offset - c.offset;
+    s.tool_offset = c.offset;
   }
   void operator()(const SetPathMode& c) const {
     switch (c.mode) {

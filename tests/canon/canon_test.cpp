@@ -248,6 +248,14 @@ TEST(Rs274Form, GivesEachInverseTimeMoveItsRate) {
             "   13 N..... STRAIGHT_FEED(20.0000, 0.0000, 5.0000, 0.0000, 0.0000, 0.0000)\n");
 }
 
+TEST(Rs274Form, KnowsThatALengthOffsetMovesTheTip) {
+  const std::string out = trace({{ToolLengthOffset{xyz(10, 0, 0)}, {}, 1},
+                                 {SetFeedMode{FeedMode::inverse_time}, {}, 2},
+                                 {SetFeedRate{1.0 / 60}, {}, 3},
+                                 {LinearFeed{xyz(-30, 0, 0)}, {}, 3}});
+  EXPECT_NE(out.find("SET_FEED_RATE(20.0000)"), std::string::npos) << out;
+}
+
 TEST(Rs274Form, OpensAndClosesSynchronisationOncePerBlock) {
   EXPECT_EQ(trace({{SyncFeed{.end = xyz(0, 0, -1), .per_revolution = 2}, {}, 1},
                    {SyncFeed{.end = xyz(0, 0, -2), .per_revolution = 2}, {}, 1},

@@ -36,7 +36,7 @@ std::optional<std::string> remark(const std::string& line, const std::string& wo
 
 /// Takes `; error: …` and `; warning: …` off the end of an expectation on the same line.
 std::string without_remarks(std::string text) {
-  for (const char* mark : {"; error:", "; warning:"})
+  for (const char* mark : {"; error:", "; warning:", "; peer-accepts:"})
     if (const auto at = text.find(mark); at != std::string::npos) text.erase(at);
   return trimmed(text);
 }
@@ -96,7 +96,9 @@ void read_remarks(ProgramFile& program, const std::string& line, std::uint32_t n
     for (const std::string& text : split(*more, " | "))
       program.lines[last_expecting].commands->push_back(text);
   }
-  if (const auto errors = remark(line, "error")) program.lines[number].errors = split(*errors, ",");
+  if (const auto errors = remark(line, "error"))
+    program.lines[number].errors = split(without_remarks(*errors), ",");
+  if (const auto why = remark(line, "peer-accepts")) program.lines[number].peer_accepts = *why;
   if (const auto errors = remark(line, "file-error")) program.lines[0].errors = split(*errors, ",");
   if (const auto warnings = remark(line, "warning"))
     program.lines[number].warnings = split(without_remarks(*warnings), ",");

@@ -15,6 +15,7 @@ struct Expectation {
   std::optional<std::vector<std::string>> commands;  ///< to_text of each, in order
   std::vector<std::string> errors;                   ///< kinds, in order
   std::vector<std::string> warnings;
+  std::string peer_accepts;  ///< why the reference program accepts a line that is refused here
 };
 
 struct ProgramFile {

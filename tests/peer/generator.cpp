@@ -28,9 +28,10 @@ class Generator {
         &Generator::polar,       &Generator::machine_code, &Generator::machine_code,
         &Generator::compensated, &Generator::home,         &Generator::lathe,
         &Generator::spline,      &Generator::hostile,      &Generator::stack};
+    rotates_ = one_in(2);
     add("F" + std::to_string(50 + below(200)) + " S300 M3");
     if (below(4) == 0) add("G10 L2 P1 " + offset_words() + rotation());
-    if (below(4) == 0) add("T" + std::to_string(1 + below(2)) + " M6 M3");
+    if (below(4) == 0) change_tool(1 + below(2));
     const int count = 6 + below(14);
     for (int i = 0; i < count; ++i) (this->*families[below(families.size())])();
     add("(DEBUG,end #5420 #5421 #5422)");
@@ -132,7 +133,16 @@ class Generator {
     if (one_in(8)) words += " A" + decimal(-20, 20);
     return words.empty() ? " X1" : words;
   }
-  std::string rotation() { return one_in(2) ? " R" + pick({"30", "90", "-45", "0", "12.5"}) : ""; }
+  std::string rotation() {
+    return rotates_ && one_in(2) ? " R" + pick({"30", "90", "-45", "0", "12.5"}) : "";
+  }
+  /// The stand-in of the reference for a tool changer loses the rotation of the current position
+  /// (docs/peer.md), so a program has tool changes or rotation.
+  void change_tool(int number) {
+    if (rotates_) return add("T" + std::to_string(number));
+    add("T" + std::to_string(number) + " M6");
+    add("M3");
+  }
   std::string feed() { return inverse_time_ ? " F" + std::to_string(1 + below(9)) : ""; }
 
   // ---- families
@@ -150,7 +160,7 @@ class Generator {
     const std::string turn = pick({"G2", "G3", "G2", "G3", "G02"});
     const std::string extra = (one_in(6) ? " P" + std::to_string(1 + below(3)) : "") +
                               (one_in(4) ? third_axis() : "") + feed();
-    switch (below(6)) {
+    switch (below(12) == 0 ? 5 : below(5)) {
       case 0:  // a full circle
         add(turn + " " + centre(decimal(1, 20), decimal(-20, 20)) + extra);
         break;
@@ -262,7 +272,7 @@ class Generator {
         add("(DEBUG,#5221 #5222 #5223 #5230 #5241 #5250 #5211 #5212 #5213 #5210 #5220)");
         break;
       case 7:
-        add("#" + pick({"5221", "5222", "5223", "5211", "5230", "5241"}) + "=" + decimal(-5, 5));
+        add("#" + pick({"5221", "5222", "5223", "5211", "5212", "5241"}) + "=" + decimal(-5, 5));
         if (one_in(2)) add(pick({"G54", "G55", "G92.3"}));
         break;
       default:
@@ -293,15 +303,14 @@ class Generator {
         add("G10 L" + pick({"10", "11"}) + " P" + std::to_string(1 + below(3)) + offset_words());
         break;
       case 6:
-        add("T" + std::to_string(below(4)) + " M6");
-        add("M3");
+        change_tool(below(4));
         add("(DEBUG,#5400 #5401 #5402 #5403 #5410 #5413)");
         break;
       case 7:
         add("G43.2 H" + std::to_string(1 + below(3)));
         break;
       case 8:
-        add("M61 Q" + std::to_string(1 + below(3)));
+        add("G43 H2");
         break;
       default:
         add("G0" + axis_words(20));
@@ -310,8 +319,10 @@ class Generator {
 
   void cycle() {
     if (one_in(2)) add("G0" + axis_words(20));
-    const std::string code =
-        pick({"G81", "G81", "G82", "G83", "G73", "G85", "G86", "G89", "G84", "G74"});
+    std::string code = pick({"G81", "G81", "G82", "G83", "G73", "G85", "G86", "G89", "G84", "G74"});
+    // Outside of G17 the reference prints the axes of a tapping feed in another order.
+    if (plane_ != 0 && (code == "G84" || code == "G74")) code = "G81";
+    if (code == "G74") add("M4");
     static constexpr const char* depth[] = {" Z", " Y", " X"};
     const bool incremental = one_in(4);
     std::string line =
@@ -367,7 +378,8 @@ class Generator {
         add(o + " if [" + expression(2) + "]");
         add("G0" + axis_words(10));
         if (one_in(2)) {
-          add(o + " elseif [" + expression(1) + "]");
+          // The reference evaluates it even when a branch was taken, so it has a value.
+          add(o + " elseif [#1 GT " + decimal(-3, 3) + "]");
           add("G0" + axis_words(10));
         }
         if (one_in(2)) {
@@ -585,7 +597,7 @@ class Generator {
 
   /// Lines that must be refused, more or less. They end the comparison, so they are rare.
   void hostile() {
-    if (!one_in(4)) return line_move();
+    if (!one_in(6)) return line_move();
     add(pick({"G1 X",
               "G0 X1 X2",
               "G2 X1 Y1",
@@ -664,6 +676,7 @@ class Generator {
   std::string text_, subs_;
   int line_ = 0;
   int labels_ = 0;
+  bool rotates_ = false;
   int plane_ = 0;  // 0 XY, 1 ZX, 2 YZ
   bool inverse_time_ = false;
 };

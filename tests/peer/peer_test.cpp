@@ -22,6 +22,24 @@ namespace fs = std::filesystem;
 const std::string programs_folder = AIRCUT_SOURCE_DIR "/tests/interp_programs/programs";
 const std::string sub_folder = programs_folder + "/subs";
 
+/// A difference without its numbers: `call own: DWELL reference: DWELL`.
+std::string kind_of(const std::string& difference) {
+  if (!difference.starts_with("call ")) return difference.substr(0, difference.find(':'));
+  std::string kind;
+  bool in_name = true;
+  std::istringstream in(difference);
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("own:") == std::string::npos && line.find("reference:") == std::string::npos)
+      continue;
+    for (const char c : line) {
+      if (c == '(') in_name = false;
+      if (in_name) kind += c;
+    }
+    in_name = true;
+  }
+  return kind;
+}
+
 int number_from(const char* name, int otherwise) {
   const char* text = std::getenv(name);
   return text ? std::atoi(text) : otherwise;
@@ -51,10 +69,12 @@ class Peer : public ::testing::Test {
 
   /// Reports a difference with the smallest program that still shows one.
   void report(const ProgramFile& program, const std::string& what) const {
+    // The same kind of difference, so that a shorter program doesn't drift to another one.
     const auto differs = [&](const std::string& text) {
       ProgramFile fewer = program;
       fewer.text = text;
-      return compare(fewer).has_value();
+      const auto found = compare(fewer);
+      return found && kind_of(*found) == kind_of(what);
     };
     ProgramFile small = program;
     small.text = shrink(program.text, differs, number_from("AIRCUT_PEER_SHRINK", 150));
@@ -93,7 +113,7 @@ TEST_F(Peer, RefusesTheSameLines) {
   for (const ProgramFile& program : read_program_folder(programs_folder)) {
     if (!program.no_peer.empty()) continue;
     for (const auto& [bad, expectation] : program.lines) {
-      if (expectation.errors.empty() || bad == 0) continue;
+      if (expectation.errors.empty() || bad == 0 || !expectation.peer_accepts.empty()) continue;
       ProgramFile one = program;
       one.text.clear();
       std::istringstream in(program.text);

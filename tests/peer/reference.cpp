@@ -176,10 +176,19 @@ Trace Reference::run(const ProgramFile& program) const {
                                     "machine.ini", "-t", "tool.tbl", "-v", "start.var"};
   if (program.options.block_delete) words.push_back("-b");
   words.insert(words.end(), {"-g", "program.ngc"});
-  const int status = run_command(words, folder);
+  // On a busy computer it has been seen to stop without a word; then it is asked again.
+  int status = 0;
+  std::string said;
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    status = run_command(words, folder);
+    said = read_file(folder / "stderr");
+    std::erase(said, '\r');
+    if (said.starts_with("executing\n")) said.erase(0, 10);
+    if (status == 0 || status == 124 || !said.empty()) break;
+  }
   Trace trace;
   trace.calls = parse_trace(read_file(folder / "stdout"));
-  trace.error_text = read_file(folder / "stderr");
+  trace.error_text = said;
   trace.timed_out = status == 124 || status == 137;
   trace.error = status != 0;
   return trace;
@@ -189,12 +198,14 @@ Trace own_trace(const ProgramFile& program, const std::string& sub_folder) {
   const Outcome outcome = run_program(program, false, sub_folder);
   Trace trace;
   trace.calls = parse_trace(outcome.rs274);
-  trace.timed_out = outcome.stopped_by_limit;
+  bool too_deep = false;
   for (const Outcome::Found& found : outcome.found) {
     if (found.severity != Severity::error) continue;
     trace.error = true;
     trace.error_text += found.text + "\n";
+    too_deep = too_deep || found.kind == "call_depth";
   }
+  trace.timed_out = outcome.stopped_by_limit && !too_deep;
   return trace;
 }
 
