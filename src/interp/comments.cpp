@@ -102,28 +102,28 @@ void comment_action(std::string_view text, Place place, BlockRun& run) {
     return expand_message(what, run.session.parameters);
   };
   if (const auto rest = behind(text, "msg,"))
-    return run.emit(canon::Message{Kind::message, std::string(*rest)});
+    return run.emit_now(canon::Message{Kind::message, std::string(*rest)});
   if (const auto rest = behind(text, "debug,")) {
     if (run.parameter(number::debug_enabled) > 0)
-      run.emit(canon::Message{Kind::debug, expanded(*rest)});
+      run.emit_now(canon::Message{Kind::debug, expanded(*rest)});
     return;
   }
   if (const auto rest = behind(text, "print,"))
-    return run.emit(canon::Message{Kind::print, expanded(*rest)});
+    return run.emit_now(canon::Message{Kind::print, expanded(*rest)});
   if (const auto rest = behind(text, "abort,"))
     return run.error("alarm", place, "the program stopped itself: " + printable(expanded(*rest)));
   if (const auto rest = behind(text, "logopen,"))
-    return run.emit(canon::LogFile{LogKind::open, std::string(*rest)});
+    return run.emit_now(canon::LogFile{LogKind::open, std::string(*rest)});
   if (const auto rest = behind(text, "logappend,"))
-    return run.emit(canon::LogFile{LogKind::append, std::string(*rest)});
+    return run.emit_now(canon::LogFile{LogKind::append, std::string(*rest)});
   if (const auto rest = behind(text, "logclose"))
-    return run.emit(canon::LogFile{LogKind::close, {}});
+    return run.emit_now(canon::LogFile{LogKind::close, {}});
   if (const auto rest = behind(text, "log,"))
-    return run.emit(canon::LogFile{LogKind::write, expanded(*rest)});
+    return run.emit_now(canon::LogFile{LogKind::write, expanded(*rest)});
   if (const auto rest = behind(text, "probeopen"))
-    return run.emit(canon::LogFile{LogKind::probe_open, std::string(trimmed(*rest))});
+    return run.emit_now(canon::LogFile{LogKind::probe_open, std::string(trimmed(*rest))});
   if (const auto rest = behind(text, "probeclose"))
-    return run.emit(canon::LogFile{LogKind::probe_close, {}});
+    return run.emit_now(canon::LogFile{LogKind::probe_close, {}});
   run.emit(canon::Message{Kind::comment, std::string(trimmed(text))});
 }
 

@@ -1,7 +1,8 @@
 // Cutter radius compensation (G41, G42). See compensation.cpp for the geometry.
 #pragma once
 
-#include <string>
+#include <cmath>
+#include <optional>
 #include <vector>
 
 #include "canon/canon.h"
@@ -29,17 +30,50 @@ class Compensator {
   void move(BlockRun& run, const PlannedMove& planned);
   /// Emits everything that is held back (G40, program end).
   void flush(BlockRun& run);
-  void start(const ModalState& state);
+  /// Forgets everything: G41 or G42 was given.
+  void start();
 
  private:
   struct Point {
-    double x = 0, y = 0;
+    double a = 0, b = 0;
+    Point operator+(Point o) const { return {a + o.a, b + o.b}; }
+    Point operator-(Point o) const { return {a - o.a, b - o.b}; }
+    friend Point operator*(double f, Point p) { return {f * p.a, f * p.b}; }
   };
-  void enter(BlockRun& run, const PlannedMove& planned);
-  void follow(BlockRun& run, const PlannedMove& planned);
+  /// A move of the tool's centre in the plane.
+  struct Path {
+    bool is_arc = false;
+    Point start, end;
+    Point centre;       ///< arcs only
+    double radius = 0;  ///< arcs only
+    bool left_turn = false;
+    double sweep = 0;                ///< arcs only: the angle before corners cut it
+    Point direction;                 ///< lines only: of the contour
+    Point start_normal, end_normal;  ///< unit, from the contour to the tool's centre
+  };
+
+  static double dot(Point p, Point q) { return p.a * q.a + p.b * q.b; }
+  static double cross(Point p, Point q) { return p.a * q.b - p.b * q.a; }
+  static double norm(Point p) { return std::hypot(p.a, p.b); }
+
+  void leave(BlockRun& run, const PlannedMove& planned);
+  std::optional<Path> entry_path(BlockRun& run, const PlannedMove& planned, Point from, Point to);
+  std::optional<Path> next_path(BlockRun& run, const PlannedMove& planned, Point from, Point to);
+  bool join(BlockRun& run, Path& next, Point corner, bool is_rapid);
+  bool meet_inside(BlockRun& run, Path& next, Point corner);
+  std::vector<Point> intersections(const Path& first, const Path& second) const;
+  double sweep_of(const Path& arc) const;
+  bool still_forward(const Path& path) const;
+  void emit_path(BlockRun& run, const PlannedMove& planned, const Path& path);
+  void stay(BlockRun& run, const PlannedMove& planned);
+
+  Point point_of(const ModalState& state, const AxisValues& tip) const;
+  AxisValues tip_of(const ModalState& state, const AxisValues& like, Point centre) const;
+  Point nose_shift(const ModalState& state) const;
+  double side_sign(const ModalState& state) const;
 
   std::vector<canon::Command> held_;  ///< [0] is the move whose end is not final
-  AxisValues programmed_;             ///< end of the last move as programmed, tip coordinates
+  std::optional<Path> last_;          ///< of held_[0], or of the last move that was emitted
 };
 
 }  // namespace aircut::interp

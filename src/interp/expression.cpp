@@ -15,7 +15,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 // EQ NE GE LE compare within this absolute band, GT and LT do not (as the reference).
-constexpr double equality_band = 1e-6;
+constexpr double equality_band = 1e-4;
 
 struct Machine {
   Machine(const Parameters& p, std::optional<Fault>& f) : parameters(p), fault(f) {}
@@ -140,10 +140,10 @@ bool Machine::binary(const Instruction& at) {
       a = truth(a < b);
       return true;
     case Op::greater_equal:
-      a = truth(a >= b || std::fabs(a - b) < equality_band);
+      a = truth(a >= b);
       return true;
     case Op::less_equal:
-      a = truth(a <= b || std::fabs(a - b) < equality_band);
+      a = truth(a <= b);
       return true;
     case Op::and_:
       a = truth(a != 0 && b != 0);

@@ -452,15 +452,11 @@ void Interpreter::Impl::leave_sub(Block& block, int at) {
   if (entry(sub).label != entry(at).label)
     return report("label_missing", block.oword.place,
                   "this line is in " + written(entry(sub).label) + " sub; use its label");
-  value_ = 0;
-  value_returned_ = false;
-  if (!block.oword.arguments.empty()) {
-    const auto value = condition(block);
-    if (value) {
-      value_ = *value;
-      value_returned_ = true;
-    }
-  }
+  // The value may be made of the last one, so that is forgotten only now.
+  std::optional<double> value;
+  if (!block.oword.arguments.empty()) value = condition(block);
+  value_ = value.value_or(0);
+  value_returned_ = value.has_value();
   return_from_call();
 }
 

@@ -126,13 +126,17 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void report(const char* kind, Place place, std::string message);
   void warn(const Fault& fault);
   bool is_cascade(const Fault& fault) const;
+  void run_block(BlockRun& run, Block& block);
   void remember_failure(const Block& block);
 
-  /// What a failed block would have set: errors that only follow from that are not told.
+  /// What failed blocks would have set: errors that only follow from that are not told.
   struct Unsure {
-    AxisSet axes;
-    bool feed = false, spindle = false, motion = false, names = false, tool = false;
+    std::optional<AxisValues> tip;  ///< where the tip would be if they had been executed
+    bool feed = false, spindle = false, motion = false;
+    std::set<std::string> names;
   };
+  bool follows_from_position(const Fault& fault, Block& block);
+  void clear_unsure(const Block& block, const AxisValues& before);
 
   Options options_;
   SourceReader reader_;
@@ -159,6 +163,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   std::uint64_t idle_blocks_ = 0;
   std::size_t cached_blocks_ = 0;
   Unsure unsure_;
+  bool failed_ = false;            ///< some block has failed
   std::vector<int> kept_numbers_;  ///< that the parameter file had
   std::set<std::tuple<const SourceText*, std::uint64_t, std::string>> reported_;
   Statistics statistics_;

@@ -182,6 +182,13 @@ bool Interpreter::Impl::count_block() {
   return false;
 }
 
+void Interpreter::Impl::run_block(BlockRun& run, Block& block) {
+  const Frame& frame = frames_.back();
+  run.level = frames_.size() == 1 ? Level::main : frame.fanuc ? Level::fanuc_sub : Level::sub;
+  run.saved = frame.saved ? &*frame.saved : nullptr;
+  BlockExecutor(run, block).execute(frame.file->text->content().substr(block.begin, block.length));
+}
+
 void Interpreter::Impl::execute_words(Block& block) {
   next_ = state_;
   const std::size_t first = queue_.size();
@@ -189,23 +196,24 @@ void Interpreter::Impl::execute_words(Block& block) {
   std::optional<Compensator> comp_before;
   if (comp_active) comp_before = session_.compensator;
   BlockRun run(session_, block, next_, *this, queue_);
-  Frame& frame = frames_.back();
-  run.level = frames_.size() == 1 ? Level::main : frame.fanuc ? Level::fanuc_sub : Level::sub;
-  run.saved = frame.saved ? &*frame.saved : nullptr;
-  BlockExecutor(run, block).execute(frame.file->text->content().substr(block.begin, block.length));
+  run_block(run, block);
   if (!run.ok()) {
     queue_.resize(first);
     parameters_.roll_back();
     run.roll_back_tools();
     if (comp_before) session_.compensator = std::move(*comp_before);
     session_.nurbs.resize(state_.nurbs_points);
-    report(*run.fault());
-    remember_failure(block);
+    if (!follows_from_position(*run.fault(), block)) {
+      report(*run.fault());
+      remember_failure(block);
+    }
     if (std::string_view(run.fault()->kind) == "alarm") stop();
     return;
   }
   parameters_.commit();
+  if (failed_) clear_unsure(block, state_.tip);
   state_ = next_;
+  Frame& frame = frames_.back();
   if (run.stack.drop) frame.saved.reset();
   if (run.stack.save) frame.saved = run.stack.save;
   if (run.stack.restore_at_return) frame.restore_at_return = true;
@@ -297,38 +305,6 @@ void Interpreter::Impl::warn(const Fault& fault) {
   if (reported_.size() >= max_reported || !reported_.emplace(at.text, at.begin, fault.kind).second)
     return;
   diagnostics_.warning(fault.kind, at, fault.message);
-}
-
-// Errors that may be nothing but the echo of an earlier one: the position, the feed or the names
-// that the failed block would have set.
-bool Interpreter::Impl::is_cascade(const Fault& fault) const {
-  const std::string_view kind = fault.kind;
-  if (kind == "arc_error" || kind == "polar_error" || kind == "probe_error" ||
-      kind.starts_with("comp_"))
-    return !unsure_.axes.empty();
-  if (kind == "zero_feed" || kind == "feed_missing") return unsure_.feed;
-  if (kind == "spindle_stopped") return unsure_.spindle;
-  if (kind == "axis_word_unused" || kind == "word_unused" || kind == "cycle_error" ||
-      kind == "word_missing")
-    return unsure_.motion;
-  if (kind == "parameter_undefined") return unsure_.names;
-  return false;
-}
-
-void Interpreter::Impl::remember_failure(const Block& block) {
-  for (const Axis axis : all_axes)
-    if (block.find(letter(axis))) unsure_.axes.add(axis);
-  if (block.find('@') || block.find('^')) {
-    unsure_.axes.add(Axis::x);
-    unsure_.axes.add(Axis::y);
-  }
-  if (block.find('F')) unsure_.feed = true;
-  for (const Word& word : block.words) {
-    if (word.letter == 'M') unsure_.spindle = true;
-    if (word.letter == 'G') unsure_.motion = true;
-  }
-  for (const Setting& setting : block.settings)
-    if (setting.name >= 0) unsure_.names = true;
 }
 
 }  // namespace aircut::interp

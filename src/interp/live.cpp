@@ -1,4 +1,5 @@
 // Parameters that follow from the state: positions, the loaded tool, modal settings.
+#include <algorithm>
 #include <array>
 
 #include "base/text.h"

@@ -39,6 +39,11 @@ Place BlockRun::place(const CodeRule& rule) const {
   return whole();
 }
 
+bool BlockRun::given(const CodeRule& rule) const {
+  return std::any_of(block.words.begin(), block.words.end(),
+                     [&](const Word& word) { return word.rule == &rule; });
+}
+
 void BlockRun::error(const char* kind, Place place, std::string message) {
   if (!fault_) fault_ = Fault{kind, place, std::move(message)};
 }
@@ -47,17 +52,24 @@ void BlockRun::warning(const char* kind, Place place, std::string message) {
   warnings_.push_back({kind, place, std::move(message)});
 }
 
+canon::Command BlockRun::make(canon::Action action, std::string expanded) {
+  canon::Command command;
+  command.action = std::move(action);
+  command.expanded = std::move(expanded);
+  command.span = site_.span();
+  command.block = site_.block_number();
+  return command;
+}
+
 void BlockRun::emit(canon::Action action, std::string expanded) {
-  if (session.compensator.holds()) {
-    canon::Command command;
-    command.action = std::move(action);
-    command.expanded = std::move(expanded);
-    command.span = site_.span();
-    command.block = site_.block_number();
-    session.compensator.hold(std::move(command));
-    return;
-  }
-  emit_now(std::move(action), std::move(expanded));
+  if (session.compensator.holds())
+    session.compensator.hold(make(std::move(action), std::move(expanded)));
+  else
+    emit_now(std::move(action), std::move(expanded));
+}
+
+void BlockRun::emit_held(canon::Action action) {
+  session.compensator.hold(make(std::move(action), {}));
 }
 
 void BlockRun::emit_now(canon::Action action, std::string expanded) {

@@ -95,6 +95,8 @@ class BlockRun {
   // ---- places
   Place place(char letter) const;
   Place place(const CodeRule& rule) const;
+  /// True when a word of the line is that code.
+  bool given(const CodeRule& rule) const;
   Place whole() const { return {0, block.length}; }
 
   // ---- results
@@ -114,6 +116,8 @@ class BlockRun {
   void emit(canon::Action action, std::string expanded = {});
   /// Appends it in front of anything that is held back.
   void emit_now(canon::Action action, std::string expanded = {});
+  /// Hands a move to the compensation, which holds it back.
+  void emit_held(canon::Action action);
   /// Appends a command that has its place already.
   void release(canon::Command command) { out_.push_back(std::move(command)); }
 
@@ -134,6 +138,8 @@ class BlockRun {
 
  private:
   friend class BlockExecutor;
+  canon::Command make(canon::Action action, std::string expanded);
+
   Site& site_;
   std::vector<canon::Command>& out_;
   std::optional<Fault> fault_;

@@ -1,5 +1,6 @@
 // What happens before the first line: settings, parameters, a look at the text, the start state.
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
@@ -43,8 +44,8 @@ void Interpreter::Impl::start(const ParameterFile& file) {
   state_.tool = options_.tool_in_spindle;
   load_parameters(file);
   apply_settings();
-  const int system =
-      std::clamp(as_integer(parameters_.stored(number::active_system)).value_or(1), 1, 9);
+  const double stored = parameters_.stored(number::active_system);
+  const int system = static_cast<int>(std::lround(std::clamp(stored, 1.0, 9.0)));
   parameters_.write(number::active_system, system);
   {
     BlockRun run(session_, scratch_, state_, *this, queue_);

@@ -46,4 +46,12 @@ PlaneAxes axes_of(canon::Plane plane) {
   return {Axis::v, Axis::w, Axis::u};
 }
 
+Vec3 plane_normal(const ModalState& state) {
+  const std::size_t n = index(axes_of(state.plane).normal);
+  Vec3 normal = Vec3::Zero();
+  normal[static_cast<int>(n < 3 ? n : 2)] = 1;
+  if (state.rotation == 0 || n == 2) return normal;
+  return Eigen::AngleAxisd(state.rotation, Vec3::UnitZ()) * normal;
+}
+
 }  // namespace aircut::interp

@@ -81,6 +81,7 @@ struct ModalState {
 
   CompState comp;
   CycleState cycle;
+  double cycle_dwell = 0;  ///< last P of a cycle: G74 and G84 take it when they have none
   SplineMemory spline;
   std::uint32_t nurbs_points = 0;  ///< control points collected since G5.2
   int nurbs_order = 3;
@@ -100,5 +101,7 @@ struct PlaneAxes {
   Axis first, second, normal;
 };
 PlaneAxes axes_of(canon::Plane plane);
+/// Unit normal of the plane in force, machine coordinates.
+Vec3 plane_normal(const ModalState& state);
 
 }  // namespace aircut::interp

@@ -166,11 +166,7 @@ void arc(const CodeRule& rule, BlockRun& run) {
   }
   move.arc.end = move.end;
   move.arc.centre = Vec3(middle[Axis::x], middle[Axis::y], middle[Axis::z]);
-  Vec3 normal = Vec3::Zero();
-  normal[static_cast<int>(index(axes.normal))] = 1;
-  if (state.rotation != 0 && state.plane != canon::Plane::xy)
-    normal = Eigen::AngleAxisd(state.rotation, Vec3::UnitZ()) * normal;
-  move.arc.normal = normal;
+  move.arc.normal = plane_normal(state);
   move.arc.turns = rule.code == 30 ? turns : -turns;
   move.arc.plane = state.plane;
   if (state.comp.side != CompSide::off || state.comp.leaving)

@@ -120,7 +120,7 @@ bool Cycle::read_words() {
       break;
     case 740:
     case 840:
-      cycle.p = run_.number_or('P', same ? cycle.p : 0);
+      cycle.p = run_.number_or('P', state_.cycle_dwell);
       break;
     case 730:
     case 830:
@@ -147,6 +147,7 @@ bool Cycle::read_words() {
     run_.error("dwell_time", 'P', "the dwell P of a cycle must be 0 or more seconds");
     return false;
   }
+  if (run_.has('P')) state_.cycle_dwell = cycle.p;
   return true;
 }
 
@@ -194,7 +195,7 @@ void Cycle::execute() {
     if (!l) return;
     repeats = *l;
   }
-  if (!read_words() || !spindle_fits()) return;
+  if (!spindle_fits() || !read_words()) return;
   const CycleState& cycle = state_.cycle;
   r_ = state_.incremental ? cycle.initial + cycle.r : cycle.r;
   z_ = state_.incremental ? r_ + cycle.z : cycle.z;

@@ -161,7 +161,7 @@ void radius_comp_on(const CodeRule& rule, BlockRun& run) {
   } else {
     int number = 0;
     if (run.has('D')) {
-      const auto d = run.integer('D', 0, 99999, "tool_unknown");
+      const auto d = run.integer('D', 0, 99999);
       if (!d) return;
       number = *d;
     }
@@ -182,7 +182,7 @@ void radius_comp_on(const CodeRule& rule, BlockRun& run) {
   if (diameter < 0) comp.side = comp.side == CompSide::left ? CompSide::right : CompSide::left;
   comp.radius = std::fabs(diameter) / 2;
   state.comp = comp;
-  run.session.compensator.start(state);
+  run.session.compensator.start();
 }
 
 }  // namespace aircut::interp

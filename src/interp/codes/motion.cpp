@@ -102,6 +102,12 @@ bool feed_is_set(BlockRun& run, const CodeRule& rule) {
               "in G93 every " + name_of(rule) + " line needs an F word of its own");
     return false;
   }
+  if (run.state.feed_mode == canon::FeedMode::per_revolution && run.state.spindles[0].speed == 0) {
+    run.error(
+        "spindle_stopped", rule,
+        name_of(rule) + " with feed per revolution (G95) needs a spindle speed; give S before");
+    return false;
+  }
   if (run.state.feed > 0) return true;
   run.error("zero_feed", rule, name_of(rule) + " with feed 0; give an F word above 0 first");
   return false;

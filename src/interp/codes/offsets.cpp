@@ -217,7 +217,7 @@ void length_offset(const CodeRule& rule, BlockRun& run) {
   }
   int number = run.state.tool;
   if (run.has('H')) {
-    const auto h = run.integer('H', 0, 99999, "tool_unknown");
+    const auto h = run.integer('H', 0, 99999);
     if (!h) return;
     if (*h != 0) number = *h;
   }

@@ -6,7 +6,7 @@
 namespace aircut::interp {
 
 void tool_word(BlockRun& run) {
-  const auto number = run.integer('T', 0, 99999, "tool_unknown");
+  const auto number = run.integer('T', 0, 99999);
   if (!number) return;
   if (*number != 0 && !run.session.tools.find(*number))
     return run.error("tool_unknown", 'T',
@@ -40,7 +40,7 @@ void set_tool_number(const CodeRule& rule, BlockRun& run) {
                      "M61 can't be used while radius compensation is on; give G40 before");
   if (!run.has('Q'))
     return run.error("word_missing", rule, "M61 needs Q: the number of the tool in the spindle");
-  const auto number = run.integer('Q', 0, 99999, "tool_unknown");
+  const auto number = run.integer('Q', 0, 99999);
   if (!number) return;
   if (*number != 0 && !run.session.tools.find(*number))
     return run.error("tool_unknown", 'Q',
