@@ -50,6 +50,9 @@ class PathRecorder {
     const plan::Segment& segment = step.segment;
     if (std::holds_alternative<plan::Hold>(segment.path) || segment.duration() <= 0) return;
     const double length = plan::length(segment.path);
+    const plan::MotionKind kind = std::holds_alternative<canon::Rapid>(segment.command.action)
+                                      ? plan::MotionKind::rapid
+                                      : segment.kind;
     int pieces = 1;
     if (const auto* arc = std::get_if<plan::Arc>(&segment.path)) {
       constexpr double widest_chord = 6 / degrees;  // rad
@@ -60,7 +63,7 @@ class PathRecorder {
     for (int i = points_.empty() ? 0 : 1; i <= pieces; ++i) {
       const double t = segment.t_start + segment.duration() * i / pieces;
       const AxisValues tip = plan::evaluate(segment.path, std::min(length, length * i / pieces)).p;
-      push({Vec3(tip[Axis::x], tip[Axis::y], tip[Axis::z]), t, segment.kind});
+      push({Vec3(tip[Axis::x], tip[Axis::y], tip[Axis::z]), t, kind});
     }
   }
 

@@ -39,6 +39,8 @@ std::string plural(std::uint64_t n, const std::string& word) {
 // A share in percent; 100 % only if it is all of it.
 std::string percent(double share) {
   if (share >= 1) return "100 %";
+  if (share > 0 && share < 0.0001) return "below 0.01 %";
+  if (share <= 0) return "0 %";
   return fixed(std::min(share * 100, 99.99), 2) + " %";
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 #include "sim/sim.h"
@@ -56,6 +57,9 @@ Finding finding_at(Kind kind, const Step& step, double t) {
   f.severity = severity_of(kind);
   f.span = segment.command.span;
   f.expanded = segment.command.expanded;
+  f.block = segment.command.block;
+  f.t_block = segment.t_start;
+  f.t_block_end = segment.t_end();
   f.tool = step.scene.loaded_tool();
   if (const tool::Tool* tool = step.scene.tool()) f.tool_name = tool->name;
   const int system = std::clamp(segment.work_system, 1, 9);
@@ -79,11 +83,58 @@ double fraction_at(const Step& step, double t) {
   return step.segment.u0 + u * (step.segment.u1 - step.segment.u0);
 }
 
+namespace {
+
+constexpr double same_time = 1e-6;  // s
+
+// Does `next` go on where `last` ended? A contact lasts; a near miss is a moment, so the parts of
+// the blocks in which it was looked for are compared.
+bool continues(const Finding& last, const Finding& next) {
+  if (next.kind == Kind::near_miss && !next.unresolved && !last.unresolved)
+    return next.t_block <= last.t_block_end + same_time;
+  return next.unresolved == last.unresolved && next.t_first <= last.t_end + same_time;
+}
+
+// How bad a row is: depth of a contact, excess of a joint.
+double badness(const Finding& f) {
+  if (f.value && f.limit && f.kind != Kind::near_miss) return std::abs(*f.value - *f.limit);
+  return f.depth.value_or(-1e300);
+}
+
+void merge(Finding& row, Finding next) {
+  if (badness(next) > badness(row)) {
+    next.t_first = std::min(row.t_first, next.t_first);
+    next.u_first = std::min(row.u_first, next.u_first);
+    next.joints_first = row.joints_first;
+    next.t_block = row.t_block;
+    next.t_end = std::max(row.t_end, next.t_end);
+    next.u_end = std::max(row.u_end, next.u_end);
+    if (next.kind == Kind::near_miss && !next.unresolved) next.t_first = next.t_end = next.t_worst;
+    row = std::move(next);
+    return;
+  }
+  row.t_block_end = next.t_block_end;
+  if (row.kind == Kind::near_miss && !row.unresolved) return;
+  row.t_end = std::max(row.t_end, next.t_end);
+  row.u_end = std::max(row.u_end, next.u_end);
+}
+
+}  // namespace
+
 void Findings::add(Finding finding) {
-  if (list_.size() < keep_)
-    list_.push_back(std::move(finding));
-  else
+  const auto [place, fresh] = last_.try_emplace(key_of(finding), list_.size());
+  if (!fresh) {
+    Finding& row = list_[place->second];
+    if (row.block == finding.block && continues(row, finding))
+      return merge(row, std::move(finding));
+  }
+  if (list_.size() >= keep_) {
     ++dropped_;
+    if (fresh) last_.erase(place);
+    return;
+  }
+  place->second = list_.size();
+  list_.push_back(std::move(finding));
 }
 
 std::vector<Finding> Findings::finish() {
@@ -93,20 +144,19 @@ std::vector<Finding> Findings::finish() {
   std::stable_sort(list_.begin(), list_.end(),
                    [&](const Finding& a, const Finding& b) { return key(a) < key(b); });
   struct Open {
-    double t_end = 0;
+    Finding last;
     int episode = 0;
   };
-  constexpr double same_time = 1e-6;  // s
-  std::map<std::tuple<Kind, std::string, std::string, std::string>, Open> open;
+  std::map<Key, Open> open;
   int episodes = 0;
   for (std::size_t i = 0; i < list_.size(); ++i) {
     Finding& f = list_[i];
     f.id = static_cast<int>(i) + 1;
-    const auto [place, fresh] = open.try_emplace({f.kind, f.body_a, f.body_b, f.joint});
+    const auto [place, fresh] = open.try_emplace(key_of(f));
     Open& episode = place->second;
-    if (fresh || f.t_first > episode.t_end + same_time) episode.episode = ++episodes;
+    if (fresh || !continues(episode.last, f)) episode.episode = ++episodes;
     f.episode = episode.episode;
-    episode.t_end = std::max(episode.t_end, f.t_end);
+    episode.last = f;
   }
   return std::move(list_);
 }

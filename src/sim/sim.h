@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "collide/collide.h"
@@ -85,6 +86,8 @@ struct Finding {
   std::string message;  ///< one sentence
   SourceSpan span;
   std::string expanded;
+  std::uint32_t block = 0;              ///< running number of the executed block
+  double t_block = 0, t_block_end = 0;  ///< time of the part of the block that was looked at, s
   int tool = 0;
   std::string tool_name;
   std::string work_system;  ///< "G54"
@@ -116,7 +119,9 @@ std::string_view to_string(Verdict verdict);
 class Findings {
  public:
   explicit Findings(std::size_t keep = 10'000) : keep_(keep) {}
-  /// Beyond `keep` rows only errors' count is kept, and the verdict can't be pass.
+  /// A row that continues the last one of the same bodies in the same block is merged with it (a
+  /// block may come as several segments). Beyond `keep` rows only the count is kept, and the
+  /// verdict can't be pass.
   void add(Finding finding);
   std::size_t size() const { return list_.size(); }
   std::size_t dropped() const { return dropped_; }
@@ -125,9 +130,13 @@ class Findings {
   std::vector<Finding> finish();
 
  private:
+  using Key = std::tuple<Kind, std::string, std::string, std::string>;  ///< kind, bodies, joint
+  static Key key_of(const Finding& f) { return {f.kind, f.body_a, f.body_b, f.joint}; }
+
   std::size_t keep_;
   std::size_t dropped_ = 0;
   std::vector<Finding> list_;
+  std::map<Key, std::size_t> last_;  ///< index of the last row of each key
 };
 
 struct Summary {

@@ -19,7 +19,7 @@ class Collision : public ::testing::Test {
 };
 
 TEST_F(Collision, FindsAThinPlateCrossedByARapid) {
-  const RunResult r = run("G21 G90\nG0 X150\nM2\n");
+  const RunResult r = run("G21 G90 G61\nG0 X150\nM2\n");
   const Finding& f = r.only(Kind::collision);
   EXPECT_EQ(r.verdict, Verdict::fail);
   EXPECT_EQ(f.span.line, 2u);
@@ -35,7 +35,8 @@ TEST_F(Collision, FindsAThinPlateCrossedByARapid) {
 }
 
 TEST_F(Collision, GoesOnFindingContactsInLaterBlocks) {
-  const RunResult r = run("G21 G90\nG0 X150\nG0 X0\nM2\n");
+  const RunResult r = run("G21 G90 G61\nG0 X150\nG0 X0\nM2\n");
+  ASSERT_EQ(r.findings.size(), 2u);  // and no near misses beside them
   EXPECT_EQ(r.count(Kind::collision), 2);
   EXPECT_EQ(r.findings.at(0).span.line, 2u);
   EXPECT_EQ(r.findings.at(1).span.line, 3u);
@@ -43,15 +44,21 @@ TEST_F(Collision, GoesOnFindingContactsInLaterBlocks) {
 }
 
 TEST_F(Collision, TiesOneContactThatLastsOverBlocksIntoAnEpisode) {
-  const RunResult r = run("G21 G90\nG1 F6000 X47\nG1 Y20\nG1 X0\nM2\n");
+  const RunResult r = run("G21 G90 G61\nG1 F6000 X47\nG1 Y20\nG1 X0\nM2\n");
   ASSERT_EQ(r.count(Kind::collision), 3);
   EXPECT_EQ(r.findings.at(0).episode, r.findings.at(1).episode);
   EXPECT_EQ(r.findings.at(1).episode, r.findings.at(2).episode);
 }
 
+TEST_F(Collision, GivesOneRowForABlockThatComesInSeveralPieces) {
+  // G64 rounds the corner between the two blocks, inside the plate.
+  const RunResult r = run("G21 G90 G64 P2\nG1 F6000 X50\nG1 Y20\nG0 X0\nM2\n");
+  EXPECT_EQ(r.count(Kind::collision), 3);
+}
+
 TEST_F(Collision, TellsANearMissWithItsDistance) {
   // At Z 51 the post's lower face passes 1 mm above the plate.
-  const RunResult r = run("G21 G90\nG0 Z51\nG0 X150\nM2\n");
+  const RunResult r = run("G21 G90 G61\nG0 Z51\nG0 X150\nM2\n");
   EXPECT_EQ(r.count(Kind::collision), 0);
   const Finding& f = r.only(Kind::near_miss);
   EXPECT_EQ(f.span.line, 3u);
@@ -61,19 +68,19 @@ TEST_F(Collision, TellsANearMissWithItsDistance) {
 }
 
 TEST_F(Collision, SaysNothingBeyondTheMargin) {
-  const RunResult r = run("G21 G90\nG0 Z52.1\nG0 X150\nM2\n");
+  const RunResult r = run("G21 G90 G61\nG0 Z52.1\nG0 X150\nM2\n");
   EXPECT_TRUE(r.findings.empty());
   EXPECT_EQ(r.verdict, Verdict::pass);
   EXPECT_EQ(r.summary.collision.clear, 1);
 }
 
 TEST_F(Collision, LeavesNearMissesOutWhenTheMarginIsZero) {
-  const RunResult r = run("G21 G90\nG0 Z51\nG0 X150\nM2\n", {.near = 0});
+  const RunResult r = run("G21 G90 G61\nG0 Z51\nG0 X150\nM2\n", {.near = 0});
   EXPECT_TRUE(r.findings.empty());
 }
 
 TEST_F(Collision, NeverCallsAGapBelowTheResolutionClear) {
-  const RunResult r = run("G21 G90\nG0 Z50.001\nG0 X150\nM2\n");
+  const RunResult r = run("G21 G90 G61\nG0 Z50.001\nG0 X150\nM2\n");
   EXPECT_EQ(r.count(Kind::collision), 0);
   ASSERT_GE(r.count(Kind::near_miss), 1);
   EXPECT_TRUE(r.findings.at(0).unresolved);
@@ -82,7 +89,7 @@ TEST_F(Collision, NeverCallsAGapBelowTheResolutionClear) {
 }
 
 TEST_F(Collision, SharesOfTheMotionAddUpToAllOfIt) {
-  const RunResult r = run("G21 G90\nG0 X150\nG0 Z50.001\nG0 X0\nM2\n");
+  const RunResult r = run("G21 G90 G61\nG0 X150\nG0 Z50.001\nG0 X0\nM2\n");
   const auto& c = r.summary.collision;
   EXPECT_NEAR(c.clear + c.hit + c.unresolved, 1, 1e-12);
   EXPECT_GT(c.hit, 0);
@@ -91,7 +98,7 @@ TEST_F(Collision, SharesOfTheMotionAddUpToAllOfIt) {
 TEST(CollisionModel, NamesAnOverlapAtTheStartOnceAndGoesOn) {
   BoxMachine box("[[body]]\nname = \"wall\"\nlink = \"bed\"\nmesh = \"meshes/post.stl\"\n");
   const RunResult r =
-      run_program("G21 G90\nG0 X20\nG0 X150\nM2\n", box.machine(), {}, box.sources());
+      run_program("G21 G90 G61\nG0 X20\nG0 X150\nM2\n", box.machine(), {}, box.sources());
   EXPECT_EQ(r.only(Kind::self_overlap).body_b, "wall");
   EXPECT_EQ(r.only(Kind::collision).body_b, "plate");
 }
@@ -99,7 +106,7 @@ TEST(CollisionModel, NamesAnOverlapAtTheStartOnceAndGoesOn) {
 TEST(CollisionModel, LeavesOutPairsExcludedByNameAndListsThem) {
   BoxMachine box(
       "[collision]\nignore = [{ bodies = [\"post\", \"plate\"], reason = \"a curtain\" }]\n");
-  const RunResult r = run_program("G21 G90\nG0 X150\nM2\n", box.machine(), {}, box.sources());
+  const RunResult r = run_program("G21 G90 G61\nG0 X150\nM2\n", box.machine(), {}, box.sources());
   EXPECT_EQ(r.count(Kind::collision), 0);
   ASSERT_EQ(r.summary.collision.exclusions.size(), 1u);
   EXPECT_NE(r.summary.collision.exclusions[0].find("a curtain"), std::string::npos);
@@ -107,7 +114,7 @@ TEST(CollisionModel, LeavesOutPairsExcludedByNameAndListsThem) {
 
 TEST(CollisionModel, SeesABodyThatEndsUpWhollyInsideAnother) {
   BoxMachine box("[[body]]\nname = \"block\"\nlink = \"bed\"\nmesh = \"meshes/block.stl\"\n");
-  const RunResult r = run_program("G21 G90\nG0 Y-100\nM2\n", box.machine(), {}, box.sources());
+  const RunResult r = run_program("G21 G90 G61\nG0 Y-100\nM2\n", box.machine(), {}, box.sources());
   const Finding& f = r.only(Kind::collision);
   EXPECT_EQ(f.body_b, "block");
   EXPECT_NEAR(f.joints_first[1], -75, 0.01);
@@ -125,7 +132,7 @@ tool::ToolTable one_tool(double length) {
 }
 
 TEST_F(Collision, ChecksTheToolThatWasChangedIn) {
-  const std::string text = "G21 G90\nG0 Z60\nT1 M6\nG0 X150\nM2\n";
+  const std::string text = "G21 G90 G61\nG0 Z60\nT1 M6\nG0 X150\nM2\n";
   EXPECT_EQ(run_program(text, box_.machine(), one_tool(5), box_.sources()).count(Kind::collision),
             0);
   const RunResult r = run_program(text, box_.machine(), one_tool(15), box_.sources());
@@ -138,7 +145,7 @@ TEST_F(Collision, ChecksTheToolThatWasChangedIn) {
 }
 
 TEST_F(Collision, FindsTheNewToolInsideSomethingAsSoonAsItIsThere) {
-  const RunResult r = run_program("G21 G90\nG0 Z55\nG0 X50\nT1 M6\nM2\n", box_.machine(),
+  const RunResult r = run_program("G21 G90 G61\nG0 Z55\nG0 X50\nT1 M6\nM2\n", box_.machine(),
                                   one_tool(30), box_.sources());
   EXPECT_EQ(r.only(Kind::tool_change_collision).span.line, 4u);
   EXPECT_EQ(r.verdict, Verdict::fail);
@@ -148,7 +155,7 @@ TEST_F(Collision, IsUnknownWithAToolThatHasNoGeometry) {
   tool::ToolTable tools = one_tool(10);
   tools.tools[0].pieces.clear();
   const RunResult r =
-      run_program("G21 G90\nT1 M6\nG0 X10\nM2\n", box_.machine(), tools, box_.sources());
+      run_program("G21 G90 G61\nT1 M6\nG0 X10\nM2\n", box_.machine(), tools, box_.sources());
   EXPECT_TRUE(r.only(Kind::not_checked).makes_unknown);
   EXPECT_EQ(r.verdict, Verdict::unknown);
 }

@@ -12,7 +12,7 @@ using testing::RunResult;
 
 TEST(Run, StopsMovingAtTheFirstRefusedBlockAndReadsOn) {
   BoxMachine box;
-  const RunResult r = run_program("G21 G90\nG0 X10\nG1 X20 Q5 F100\nG0 X150\nG0 X1o\nM2\n",
+  const RunResult r = run_program("G21 G90 G61\nG0 X10\nG1 X20 Q5 F100\nG0 X150\nG0 X1o\nM2\n",
                                   box.machine(), {}, box.sources());
   EXPECT_EQ(r.diagnostics.errors(), 2u);
   EXPECT_EQ(r.count(Kind::collision), 0);  // the rapid through the plate was never reached
@@ -24,28 +24,30 @@ TEST(Run, StopsMovingAtTheFirstRefusedBlockAndReadsOn) {
 
 TEST(Run, IsUnknownWhenUserCodesWereNotRun) {
   BoxMachine box;
-  const RunResult r = run_program("G21 G90\nM110\nG0 X10\nM2\n", box.machine(), {}, box.sources());
+  const RunResult r =
+      run_program("G21 G90 G61\nM110\nG0 X10\nM2\n", box.machine(), {}, box.sources());
   EXPECT_EQ(r.count(Kind::not_executed), 1);
   EXPECT_EQ(r.verdict, Verdict::unknown);
 }
 
 TEST(Run, TakesTheMachinesWordForUserCodes) {
   BoxMachine box("[mcodes]\nM110 = { kind = \"ignore\" }\n");
-  const RunResult r = run_program("G21 G90\nM110\nG0 X10\nM2\n", box.machine(), {}, box.sources());
+  const RunResult r =
+      run_program("G21 G90 G61\nM110\nG0 X10\nM2\n", box.machine(), {}, box.sources());
   EXPECT_TRUE(r.findings.empty());
   EXPECT_EQ(r.verdict, Verdict::pass);
 }
 
 TEST(Run, FailsForAToolThatIsNotInTheTable) {
   BoxMachine box;
-  const RunResult r = run_program("G21 G90\nT7 M6\nM2\n", box.machine(), {}, box.sources());
+  const RunResult r = run_program("G21 G90 G61\nT7 M6\nM2\n", box.machine(), {}, box.sources());
   EXPECT_EQ(r.verdict, Verdict::fail);
 }
 
 TEST(Run, IsUnknownWhenSimulatedTimeRunsOut) {
   BoxMachine box;
   const RunResult r =
-      run_program("G21 G90\nG1 X10 F1\nG1 X20\nM2\n", box.machine(), {}, box.sources(), {}, 60);
+      run_program("G21 G90 G61\nG1 X10 F1\nG1 X20\nM2\n", box.machine(), {}, box.sources(), {}, 60);
   EXPECT_EQ(r.verdict, Verdict::unknown);
   EXPECT_NE(r.summary.unchecked.at(0).find("simulated time"), std::string::npos);
 }
@@ -76,8 +78,10 @@ TEST(Judge, NeverPassesWhatWasNotChecked) {
 
 TEST(Findings, AreSortedNumberedAndTiedIntoEpisodes) {
   Findings findings(3);
+  std::uint32_t block = 0;
   const auto add = [&](Kind kind, double t0, double t1) {
     Finding f;
+    f.block = ++block;
     f.kind = kind;
     f.t_first = t0;
     f.t_end = t1;

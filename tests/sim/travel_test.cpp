@@ -21,7 +21,7 @@ class Travel : public ::testing::Test {
 };
 
 TEST_F(Travel, AllowsAJointToGoRightToItsLimit) {
-  const RunResult r = run("G21 G90\nG0 X200 Y-200\nG0 X-200\nM2\n");
+  const RunResult r = run("G21 G90 G61\nG0 X200 Y-200\nG0 X-200\nM2\n");
   EXPECT_TRUE(r.findings.empty());
   EXPECT_EQ(r.verdict, Verdict::pass);
   ASSERT_EQ(r.summary.joints.size(), 3u);
@@ -32,7 +32,7 @@ TEST_F(Travel, AllowsAJointToGoRightToItsLimit) {
 }
 
 TEST_F(Travel, FindsTheFirstMicrometreBeyondIt) {
-  const RunResult r = run("G21 G90\nG0 X200.001\nM2\n");
+  const RunResult r = run("G21 G90 G61\nG0 X200.001\nM2\n");
   const Finding& f = r.only(Kind::overtravel);
   EXPECT_EQ(f.joint, "X");
   EXPECT_NEAR(*f.value, 200.001, 1e-5);
@@ -42,7 +42,7 @@ TEST_F(Travel, FindsTheFirstMicrometreBeyondIt) {
 
 TEST_F(Travel, FindsABulgeOfAnArcWhoseEndsAreInside) {
   // Half circle from (190, -30) to (190, 30) about (190, 0): bulges to X 220.
-  const RunResult r = run("G21 G90 G17\nG0 X190 Y-30\nG3 X190 Y30 J30 F3000\nM2\n");
+  const RunResult r = run("G21 G90 G61 G17\nG0 X190 Y-30\nG3 X190 Y30 J30 F3000\nM2\n");
   const Finding& f = r.only(Kind::overtravel);
   EXPECT_EQ(f.span.line, 3u);
   EXPECT_NEAR(*f.value, 220, 1e-4);
@@ -53,11 +53,11 @@ TEST_F(Travel, FindsABulgeOfAnArcWhoseEndsAreInside) {
 }
 
 TEST_F(Travel, LeavesAnArcAloneThatJustStaysInside) {
-  EXPECT_TRUE(run("G21 G90 G17\nG0 X170 Y-30\nG3 X170 Y30 J30 F3000\nM2\n").findings.empty());
+  EXPECT_TRUE(run("G21 G90 G61 G17\nG0 X170 Y-30\nG3 X170 Y30 J30 F3000\nM2\n").findings.empty());
 }
 
 TEST_F(Travel, ReportsEveryJointAndEveryBlockOfOneEpisode) {
-  const RunResult r = run("G21 G90\nG0 X210 Y210\nG0 X220\nM2\n");
+  const RunResult r = run("G21 G90 G61\nG0 X210 Y210\nG0 X220\nM2\n");
   EXPECT_EQ(r.count(Kind::overtravel), 4);
 }
 
@@ -68,8 +68,8 @@ TEST(Reach, EndsTheRunAtThePointThatCantBeReached) {
       machine::read_machine(AIRCUT_SOURCE_DIR "/machines/ox-glide-crossed", sources, out);
   ASSERT_TRUE(machine) << machine.error().message;
   // The crossed form reaches down to z = d - l2 = -358.
-  const RunResult r = run_program("G21 G90\nG1 F1000 Z-340\nG1 Z-365\nG1 Z-300\nM2\n", *machine, {},
-                                  sources, {.collision = false});
+  const RunResult r = run_program("G21 G90 G61\nG1 F1000 Z-340\nG1 Z-365\nG1 Z-300\nM2\n", *machine,
+                                  {}, sources, {.collision = false});
   const Finding& f = r.only(Kind::unreachable);
   EXPECT_EQ(f.span.line, 3u);
   EXPECT_NEAR(f.u_first, 18.0 / 25, 1e-4);

@@ -26,7 +26,8 @@ using machine::Role;
 struct Pair {
   std::size_t a = 0, b = 0;  // indices into Scene::bodies(); a is nearer to the tool
   collide::Budget budget;
-  bool left_out = false;  // overlapped at the start
+  bool left_out = false;    // overlapped at the start
+  double contact_end = -1;  // program time at which the last contact ended
 };
 
 bool is_tool(Role role) {
@@ -80,8 +81,12 @@ std::string in_words(const Body& body) {
   return name;
 }
 
-std::string during(plan::MotionKind kind) {
-  switch (kind) {
+std::string during(const plan::Segment& segment) {
+  if (segment.kind == plan::MotionKind::blend)
+    return std::holds_alternative<canon::Rapid>(segment.command.action)
+               ? "during a rapid, where it rounds the corner (G64)"
+               : "during a feed move, where it rounds the corner (G64)";
+  switch (segment.kind) {
     case plan::MotionKind::rapid:
       return "during a rapid";
     case plan::MotionKind::feed:
@@ -89,7 +94,7 @@ std::string during(plan::MotionKind kind) {
     case plan::MotionKind::arc:
       return "during an arc";
     case plan::MotionKind::blend:
-      return "while rounding a corner";
+      break;
     case plan::MotionKind::probe:
       return "during a probing move";
     case plan::MotionKind::sync:
@@ -208,7 +213,9 @@ class CollisionCheck final : public Check {
       for (std::size_t j = i + 1; j < bodies.size(); ++j) {
         if (!watched(scene, bodies[i], bodies[j])) continue;
         const bool swap = rank(bodies[j].body.role) < rank(bodies[i].body.role);
-        Pair pair{swap ? j : i, swap ? i : j, {}, false};
+        Pair pair;
+        pair.a = swap ? j : i;
+        pair.b = swap ? i : j;
         // What was left out at the start stays out when the tool changes.
         const std::string name = bodies[pair.a].body.name + "\n" + bodies[pair.b].body.name;
         for (std::size_t k = 0; k < before.size(); ++k)
@@ -304,17 +311,29 @@ class CollisionCheck final : public Check {
                      [&](const collide::Clear&) { clear_time_ += t1 - t; },
                      [&](const collide::Near& near) {
                        clear_time_ += t1 - t;
+                       // Parting after a contact is no near miss of its own.
+                       const bool parting = pair.contact_end >= 0 && t <= pair.contact_end + 1e-6;
+                       if (parting && near.distance_low <= 4 * proof.resolution) return;
                        report_near(step, a.body, b.body, near, cache, out);
                      },
                      [&](const collide::Hit& hit) {
                        next = row + 1 == most_rows ? t1 : end_of_contact(a, b, hit, t1, cache);
                        clear_time_ += hit.t_first - t;
                        hit_time_ += next - hit.t_first;
+                       pair.contact_end = next;
                        report_hit(step, a, b, hit, next, cache, out);
                      },
                      [&](const collide::Unresolved& gap) {
-                       unresolved_time_ += gap.t1 - gap.t0;
+                       // Bodies that come apart are within the resolution for a moment: that is
+                       // the end of the contact that was told already.
+                       if (pair.contact_end >= 0 && gap.t0 <= pair.contact_end + 1e-6) {
+                         next = end_of_touch(a, b, t, t1, proof.resolution, cache);
+                         hit_time_ += next - t;
+                         pair.contact_end = next;
+                         return;
+                       }
                        clear_time_ += (t1 - t) - (gap.t1 - gap.t0);
+                       unresolved_time_ += gap.t1 - gap.t0;
                        report_unresolved(step, a.body, b.body, gap, out);
                      },
                  },
@@ -365,6 +384,24 @@ class CollisionCheck final : public Check {
     return t1;
   }
 
+  // When bodies that part are clearly apart, after time t; t1 if they aren't until then.
+  double end_of_touch(const SceneBody& a, const SceneBody& b, double t, double t1,
+                      double resolution, PoseCache& cache) {
+    const auto touching = [&](double at) {
+      const LinkPoses* poses = cache.at(at);
+      ++cost_.distance_queries;
+      return !poses || collide::distance(*a.collision, mesh_pose(a.body, *poses), *b.collision,
+                                         mesh_pose(b.body, *poses), 3 * resolution)
+                               .value <= 2 * resolution;
+    };
+    constexpr int steps = 256;
+    for (int i = 1; i <= steps; ++i) {
+      const double at = t + (t1 - t) * i / steps;
+      if (!touching(at)) return at;
+    }
+    return t1;
+  }
+
   bool overlap_at(const SceneBody& a, const SceneBody& b, double t, PoseCache& cache) {
     const LinkPoses* poses = cache.at(t);
     ++cost_.overlap_queries;
@@ -383,7 +420,7 @@ class CollisionCheck final : public Check {
                   double t_end, PoseCache& cache, Findings& out) {
     Finding f = finding_at(Kind::collision, step, hit.t_first);
     name_pair(f, a.body, b.body);
-    f.message = in_words(a.body) + " hits " + in_words(b.body) + " " + during(step.segment.kind);
+    f.message = in_words(a.body) + " hits " + in_words(b.body) + " " + during(step.segment);
     f.t_worst = hit.t_overlap;
     f.t_end = t_end;
     f.u_first = fraction_at(step, f.t_first);
@@ -454,7 +491,7 @@ class CollisionCheck final : public Check {
     Finding f = finding_at(Kind::near_miss, step, near.t);
     name_pair(f, a, b);
     f.message = in_words(a) + " passes " + in_words(b) + " at " + fixed(near.distance_low, 3) +
-                " mm " + during(step.segment.kind);
+                " mm " + during(step.segment);
     f.u_first = f.u_end = fraction_at(step, near.t);
     f.depth = -near.distance_low;
     f.depth_bound = near.distance_high - near.distance_low;
@@ -474,7 +511,7 @@ class CollisionCheck final : public Check {
     name_pair(f, a, b);
     f.message = in_words(a) + " and " + in_words(b) + " come within " +
                 fixed(step.scene.machine().collision_tolerance(), 4) + " mm " +
-                during(step.segment.kind) + ": neither contact nor clearance could be proven";
+                during(step.segment) + ": neither contact nor clearance could be proven";
     f.t_end = gap.t1;
     f.u_first = fraction_at(step, gap.t0);
     f.u_end = fraction_at(step, gap.t1);
