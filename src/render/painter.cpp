@@ -86,7 +86,7 @@ void Painter::draw_light(const Frame& frame) const {
   to_unit.col(3) = Eigen::Vector4d(0.5, 0.5, 0.5, 1);
   light.set("to_shadow", Eigen::Matrix4d(to_unit * stage.world_to_shadow));
   light.set("key", stage.lamps.key);
-  const double diagonal = stage.shadow_size;
+  const double diagonal = stage.diagonal;
   const double across = frame.view().mm_per_pixel * frame.view().height;
   light.set("radius", std::min(0.07 * diagonal, 0.14 * across));
   light.set("pixels_per_mm", frame.half_pixels_per_mm(targets_->half_height));

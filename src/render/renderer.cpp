@@ -156,8 +156,8 @@ Image Renderer::draw(const Scene& scene, const Camera& camera) {
   const Painter painter(r.gl, r.programs, r.targets);
   painter.draw_shadow_map(stage);
   Image image = make_image(width, height, {});
-  // Lines keep their share of large pictures and never get thinner than a pixel.
-  const double line_scale = std::max(1.0, layout_scale(r.size.width, r.size.height)) * r.factor();
+  // Lines keep their share of large pictures; below 0.7 of a pixel they would be lost.
+  const double line_scale = std::max(0.7, layout_scale(r.size.width, r.size.height)) * r.factor();
   for (const Tile& tile : make_tiles(width, height, r.tile_width, r.tile_height)) {
     painter.draw_tile(stage, scene, tile, line_scale);
     copy_tile(image, tile, r.read_tile(tile));

@@ -208,7 +208,8 @@ float occlusion(vec3 p, vec3 n, ivec2 pixel, float depth, float turn) {
     float t = (float(i) + 0.5) / float(samples);
     float angle = turn + float(i) * 2.39996323;
     ivec2 at = pixel + ivec2(round(t * reach * vec2(cos(angle), sin(angle))));
-    float d = texelFetch(geometry, clamp(at, ivec2(0), size - 1), 0).w;
+    at = clamp(at, ivec2(0), size - 1);
+    float d = texelFetch(geometry, at, 0).w;
     vec3 v = position_at(at, d) - p;
     float vv = dot(v, v);
     float vn = dot(v, n) - 0.012 * radius;

@@ -1,6 +1,7 @@
 #include "render/stage.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace aircut::render {
@@ -30,19 +31,50 @@ Lamps place_lamps(const View& view) {
   return out;
 }
 
-// A parallel projection along the key light that just holds the sphere around all bodies.
+// Corners of the part of space that the picture shows between two depths, render frame.
+std::array<Vec3, 8> seen_space(const View& view, double near, double far) {
+  const Eigen::Matrix4d& P = view.projection;
+  std::array<Vec3, 8> out;
+  for (unsigned i = 0; i < 8; ++i) {
+    const double depth = (i & 4u) != 0 ? far : near;
+    const double reach = view.orthographic ? 1 : depth;
+    const Vec3 p(((i & 1u) != 0 ? 1 : -1) * reach / P(0, 0),
+                 ((i & 2u) != 0 ? 1 : -1) * reach / P(1, 1), -depth);
+    out[i] = view.axes.transpose() * p + view.eye;
+  }
+  return out;
+}
+
+// A parallel projection along the key light, onto a square that holds what is both in the picture
+// and in the shadow of some body: a body throws shadows only onto points that lie behind it in this
+// projection, and so within its own outline. Through the map: the sphere around all bodies.
 void place_shadow(Stage& stage) {
-  const Vec3 centre = stage.solid.center();
+  const Vec3 z = stage.lamps.key, x = Vec3::UnitZ().cross(z).normalized(), y = z.cross(x);
+  const auto flat = [&](const Vec3& p) { return Eigen::Vector2d(p.dot(x), p.dot(y)); };
+  Eigen::AlignedBox2d shaded, shown;
+  double near = 1e300, far = -1e300;
+  for (const Vec3& corner : corners(stage.solid)) {
+    shaded.extend(flat(corner));
+    const double depth = -(stage.view.axes.row(2) * (corner - stage.view.eye)).value();
+    near = std::min(near, depth);
+    far = std::max(far, depth);
+  }
   const double radius = stage.solid.diagonal().norm() / 2 * 1.01 + 1e-3;
-  const Vec3 z = stage.lamps.key;
-  const Vec3 x = Vec3::UnitZ().cross(z).normalized();
+  // Shadows on the floor reach beyond the bodies.
+  const double least = stage.view.orthographic ? near : std::max(near, 0.0);
+  for (const Vec3& corner : seen_space(stage.view, least, std::max(far, least) + radius))
+    shown.extend(flat(corner));
+  Eigen::AlignedBox2d square = shaded.intersection(shown);
+  if (square.isEmpty()) square = shaded;
+  // The rim is for the softness of shadows at the picture's border.
+  const double half = std::max(square.sizes().maxCoeff() / 2 * 1.06, radius / 50);
+  const Eigen::Vector2d middle = square.center();
   Eigen::Matrix4d M = Eigen::Matrix4d::Identity();
-  M.row(0).head<3>() = x / radius;
-  M.row(1).head<3>() = z.cross(x) / radius;
-  M.row(2).head<3>() = -z / radius;
-  M.topRightCorner<3, 1>() = -(M.topLeftCorner<3, 3>() * centre);
+  M.row(0) << x.transpose() / half, -middle.x() / half;
+  M.row(1) << y.transpose() / half, -middle.y() / half;
+  M.row(2) << -z.transpose() / radius, z.dot(stage.solid.center()) / radius;
   stage.world_to_shadow = M;
-  stage.shadow_size = 2 * radius;
+  stage.shadow_size = 2 * half;
   stage.shadow_depth = 2 * radius;
 }
 
@@ -123,7 +155,9 @@ Stage make_stage(const Scene& scene, const Camera& camera, MeshCache& meshes, in
   out.solid = solid;
   if (!solid.isEmpty()) out.solid.translate(-centre);
   out.lamps = place_lamps(out.view);
-  if (!out.solid.isEmpty()) place_shadow(out);
+  if (out.solid.isEmpty()) return out;
+  out.diagonal = out.solid.diagonal().norm();
+  place_shadow(out);
   return out;
 }
 

@@ -40,7 +40,8 @@ struct Stage {
   Lamps lamps;
   std::optional<Floor> floor;
   Eigen::Matrix4d world_to_shadow = Eigen::Matrix4d::Identity();  ///< to clip space
-  double shadow_size = 1, shadow_depth = 1;                       ///< mm
+  double shadow_size = 1, shadow_depth = 1;                       ///< of the map, mm
+  double diagonal = 1;                                            ///< of all bodies, mm
 };
 
 /// Bodies without a mesh are left out.
