@@ -22,7 +22,9 @@ namespace {
 using machine::JointVector;
 using machine::ReachError;
 
-constexpr double row_tolerance = 4e-4;
+constexpr double row_tolerance = 2e-3;        // lines and arcs
+constexpr double blend_row_tolerance = 1e-2;  // a blend is short: coarser, with more slack
+constexpr double speed_tolerance = 2e-3;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Node {
@@ -44,9 +46,9 @@ class GridMaker {
  private:
   tl::expected<Node, ReachError> node(double s, const JointVector& near) const;
   bool is_uniform(bool identity, const Node& first, const Node& last) const;
-  bool too_coarse(const Node& a, const Node& m, const Node& b) const;
+  std::optional<double> row_error(const Node& a, const Node& m, const Node& b) const;
   bool split(const Node& a, const Node& b, int depth);
-  void add(const Node& n);
+  void add(const Node& n, double room = 1);
 
   const JointPath& path_;
   Metric metric_;
@@ -100,10 +102,14 @@ bool GridMaker::is_uniform(bool identity, const Node& first, const Node& last) c
   return true;
 }
 
-bool GridMaker::too_coarse(const Node& a, const Node& m, const Node& b) const {
+// Largest error of the rows of an interval as a share of a limit; nothing when it is too coarse.
+std::optional<double> GridMaker::row_error(const Node& a, const Node& m, const Node& b) const {
+  const double tolerance =
+      std::holds_alternative<Blend>(path_.path()) ? blend_row_tolerance : row_tolerance;
+  double worst = 0;
   const double ds = b.s - a.s;
   const double end_distance = std::min(b.s, length_ - a.s);
-  if (ds > std::max(ramp_ / 6, 0.2 * end_distance)) return true;
+  if (ds > std::max(ramp_ / 6, 0.2 * end_distance)) return std::nullopt;
   // The largest speed is the cap; the largest acceleration that of standstill or less than twice
   // as much where curvature helps.
   const double alpha = std::max(a.alpha.cwiseAbs().maxCoeff(), b.alpha.cwiseAbs().maxCoeff());
@@ -117,21 +123,24 @@ bool GridMaker::too_coarse(const Node& a, const Node& m, const Node& b) const {
     const double off_alpha = std::abs(m.alpha[j] - (a.alpha[j] + b.alpha[j]) / 2);
     const double off_beta = std::abs(m.beta[j] - (a.beta[j] + b.beta[j]) / 2);
     const double product = std::abs(b.beta[j] - a.beta[j]) * std::min(ds * u, speed2) / 8;
-    if (off_alpha * u + off_beta * speed2 + product > row_tolerance) return true;
+    worst = std::max(worst, off_alpha * u + off_beta * speed2 + product);
+    if (worst > tolerance) return std::nullopt;
     const double to_v = limits_.a[j] / limits_.v[j] * speed;  // α to a share of the joint's speed
-    if (off_alpha * to_v > row_tolerance) return true;
+    if (off_alpha * to_v > speed_tolerance) return std::nullopt;
     const double change = (b.alpha[j] - a.alpha[j]) * to_v;
-    if (change * change > 8 * row_tolerance) return true;
+    if (change * change > 4 * speed_tolerance) return std::nullopt;
   }
   if (feed_ < infinity) {
     const double off = std::abs(m.metric_speed - (a.metric_speed + b.metric_speed) / 2);
     const double change = (b.metric_speed - a.metric_speed) / m.metric_speed;
-    if (off > row_tolerance * m.metric_speed || change * change > 8 * row_tolerance) return true;
+    if (off > speed_tolerance * m.metric_speed || change * change > 4 * speed_tolerance)
+      return std::nullopt;
   }
-  return false;
+  return worst;
 }
 
-void GridMaker::add(const Node& n) {
+void GridMaker::add(const Node& n, double room) {
+  if (!grid_.s.empty()) grid_.room.push_back(room);
   grid_.s.push_back(n.s);
   grid_.cap.push_back(n.cap);
   grid_.why.push_back(n.why);
@@ -149,7 +158,8 @@ bool GridMaker::split(const Node& a, const Node& b, int depth) {
   }
   // 2^-24 of the piece: nodes this near that still differ mean that the inverse jumps.
   constexpr int deepest = 24;
-  if (depth < deepest && too_coarse(a, *middle, b))
+  const auto error = row_error(a, *middle, b);
+  if (depth < deepest && !error)
     return split(a, *middle, depth + 1) && split(*middle, b, depth + 1);
   if (depth == deepest) {
     const JointVector jump = b.joint.q - a.joint.q - (b.s - a.s) * middle->joint.dq;
@@ -158,8 +168,9 @@ bool GridMaker::split(const Node& a, const Node& b, int depth) {
       return false;
     }
   }
-  add(*middle);
-  add(b);
+  const double room = 1 - std::min(error.value_or(0), row_tolerance + blend_row_tolerance) / 2;
+  add(*middle, room);
+  add(b, room);
   return true;
 }
 

@@ -19,8 +19,8 @@ enum class Cap : unsigned char { none, feed, velocity };
 /// Nodes of one piece. `b` is the squared path speed.
 ///
 /// A uniform piece (joints linear in s) needs no inner nodes: its limits are constants and its
-/// profile is a closed form. Otherwise node k has one row per joint: |alpha u + beta b| ≤ 1, with
-/// u the path acceleration, alpha = q' / A, beta = q'' / A.
+/// profile is a closed form. Otherwise node k has one row per joint: |alpha u + beta b| ≤ room,
+/// with u the path acceleration, alpha = q' / A, beta = q'' / A.
 struct Grid {
   bool uniform = false;
   double uniform_a = 0;  ///< largest |u| of a uniform piece
@@ -28,6 +28,7 @@ struct Grid {
   std::vector<double> s;    ///< of the nodes, ascending, first 0, last the length
   std::vector<double> cap;  ///< largest b by feed and joint speeds
   std::vector<Cap> why;
+  std::vector<double> room;  ///< per interval: 1 minus what the rows can be wrong between nodes
   std::vector<double> rows;  ///< per node: alpha of every joint, then beta of every joint
 
   std::size_t nodes() const { return s.size(); }

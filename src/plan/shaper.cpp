@@ -21,7 +21,7 @@
 namespace aircut::plan {
 namespace {
 
-constexpr double jump_share = 5e-4;
+constexpr double jump_share = 8e-4;
 constexpr double pass_angle = 1e-3;   // rad
 constexpr double blend_angle = 1e-7;  // rad: rounding of coordinates, not a corner
 constexpr double infinity = std::numeric_limits<double>::infinity();

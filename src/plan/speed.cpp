@@ -31,7 +31,7 @@ struct Bound {
 class Interval {
  public:
   Interval(const Grid& grid, std::size_t node, double b_next)
-      : ds_(grid.s[node + 1] - grid.s[node]), cap_(grid.cap[node]) {
+      : ds_(grid.s[node + 1] - grid.s[node]), cap_(grid.cap[node]), room_(grid.room[node]) {
     const double* alpha0 = grid.alpha(node);
     const double* beta0 = grid.beta(node);
     const double* alpha1 = grid.alpha(node + 1);
@@ -72,11 +72,11 @@ class Interval {
  private:
   void add(double p, double q) {
     if (p == 0) {
-      if (q != 0) cap_ = std::min(cap_, 1 / std::abs(q));
+      if (q != 0) cap_ = std::min(cap_, room_ / std::abs(q));
       return;
     }
-    // ±(p u + q b) ≤ 1
-    const double sign = p > 0 ? 1 : -1;
+    // ±(p u + q b) ≤ room
+    const double sign = p > 0 ? room_ : -room_;
     upper_[count_] = {sign / p, -q / p};
     lower_[count_] = {-sign / p, -q / p};
     ++count_;
@@ -105,6 +105,7 @@ class Interval {
 
   double ds_;
   double cap_;
+  double room_;
   std::size_t count_ = 0;
   std::array<Bound, 2 * machine::max_joints + 1> upper_, lower_;
 };

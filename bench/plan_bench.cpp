@@ -1,0 +1,103 @@
+// Planning speed: moves per second, and how many times faster than the motion itself.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+
+#include "machine/machine.h"
+#include "plan/plan.h"
+
+namespace {
+
+using namespace aircut;
+
+void add_joint(machine::Machine& m, const char* name) {
+  machine::Joint joint;
+  joint.name = name;
+  joint.vmax = 300;
+  joint.amax = 3000;
+  joint.driven = static_cast<int>(m.driven_.size());
+  m.driven_.push_back(static_cast<int>(m.tree_.size()));
+  m.tree_.push_back(joint);
+}
+
+machine::Machine mill() {
+  machine::Machine m;
+  for (const char* name : {"X", "Y", "Z"}) add_joint(m, name);
+  m.kinematics_ = machine::make_identity({Axis::x, Axis::y, Axis::z});
+  return m;
+}
+
+machine::Machine ox_glide() {
+  machine::Machine m;
+  for (const char* name : {"s1", "s2", "s3"}) add_joint(m, name);
+  m.kinematics_ = machine::make_ox_glide({});
+  return m;
+}
+
+AxisValues xyz(double x, double y, double z) {
+  AxisValues out;
+  out[Axis::x] = x;
+  out[Axis::y] = y;
+  out[Axis::z] = z;
+  return out;
+}
+
+struct Path {
+  double step;  // mm per move
+  double p, q;  // G64
+  double feed = 50;
+};
+
+// A wave of short moves back and forth, as CAM systems write them.
+template <class Push>
+void wave(const Path& path, int moves, const AxisValues& middle, Push push) {
+  push(canon::SetPathMode{canon::PathMode::continuous, path.p});
+  push(canon::SetNaiveCam{path.q});
+  push(canon::SetFeedRate{path.feed, 0});
+  for (int i = 1; i <= moves; ++i) {
+    const double a = i * path.step / 20;
+    push(canon::LinearFeed{middle + xyz(20 * std::sin(a), 10 * std::cos(a), 3 * std::sin(3 * a))});
+  }
+}
+
+void plan(benchmark::State& state, const machine::Machine& machine, const AxisValues& middle,
+          const Path& path) {
+  const auto moves = static_cast<int>(state.range(0));
+  const auto start = machine.kinematics().inverse({middle, {}}, machine::JointVector::Zero(3));
+  double seconds = 0;
+  for (auto _ : state) {
+    plan::Planner planner(machine, *start, {});
+    std::uint32_t block = 0;
+    const auto drain = [&] {
+      while (auto segment = planner.take()) seconds += segment->duration();
+    };
+    wave(path, moves, middle, [&](canon::Action action) {
+      canon::Command command;
+      command.action = std::move(action);
+      command.block = ++block;
+      if (!planner.push(command)) state.SkipWithError("refused");
+      drain();
+    });
+    planner.flush();
+    drain();
+  }
+  state.counters["moves/s"] = benchmark::Counter(static_cast<double>(state.iterations()) * moves,
+                                                 benchmark::Counter::kIsRate);
+  state.counters["x real time"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);
+}
+
+void mill_lines(benchmark::State& state) { plan(state, mill(), {}, {1, 0.02, 0}); }
+void mill_short_lines(benchmark::State& state) { plan(state, mill(), {}, {0.05, 0.01, 0}); }
+void mill_merged(benchmark::State& state) { plan(state, mill(), {}, {0.05, 0.01, 0.005}); }
+void ox_lines(benchmark::State& state) { plan(state, ox_glide(), xyz(250, 0, -310), {1, 0.02, 0}); }
+void ox_short_lines(benchmark::State& state) {
+  plan(state, ox_glide(), xyz(250, 0, -310), {0.05, 0.01, 0});
+}
+
+BENCHMARK(mill_lines)->Arg(10000)->Unit(benchmark::kMillisecond);
+BENCHMARK(mill_short_lines)->Arg(10000)->Arg(100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(mill_merged)->Arg(100000)->Unit(benchmark::kMillisecond);
+BENCHMARK(ox_lines)->Arg(10000)->Unit(benchmark::kMillisecond);
+BENCHMARK(ox_short_lines)->Arg(10000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
