@@ -220,7 +220,8 @@ void Cycle::repeat(int number, int repeats) {
   double a = a_, b = b_;
   if (const auto value = run_.axis(axes_.first)) a = state_.incremental ? a_ + *value : *value;
   if (const auto value = run_.axis(axes_.second)) b = state_.incremental ? b_ + *value : *value;
-  move(true, a, b, c_ < r_ ? r_ : c_, "to the hole");
+  // Below the level of retraction the way to the hole rises to it on the way.
+  move(true, a, b, std::max(c_, clear_), "to the hole");
   if (c_ > r_) rapid_to(r_, "down to R");
   body();
 }

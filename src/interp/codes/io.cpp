@@ -48,8 +48,6 @@ void coolant(const CodeRule& rule, BlockRun& run) {
 void override_switch(const CodeRule& rule, BlockRun& run) {
   using Kind = canon::Override::Kind;
   if (refuse_with_comp(run, rule)) return;
-  if (run.has('P') && *run.number('P') < 0)
-    return run.error("word_value", 'P', "P of " + name_of(rule) + " can't be negative; 0 is off");
   const bool on = run.number_or('P', 1) != 0;
   switch (rule.code) {
     case 48:
