@@ -3,7 +3,8 @@
 // Only the importer of the file's extension stays registered. All files go through an IOSystem of
 // our own: the main file is in memory already; a file that it names (OBJ materials, glTF buffers)
 // is opened only if, after opening, it turns out to be a regular file inside the main file's
-// folder, and as long as the sum of all bytes stays within the limit. No exception leaves this
+// folder, and as long as the sum of all bytes stays within the limit. Since the importer
+// crashes and hangs on some broken files, it runs in a child process. No exception leaves this
 // file.
 //
 // The scene's nodes form a tree of poses; a mesh may hang on several nodes. Poses that mirror turn
@@ -11,6 +12,7 @@
 // (COLLADA's own unit sits in the root's matrix).
 #include "geometry/mesh_import.h"
 
+#include <assimp/BaseImporter.h>
 #include <assimp/importerdesc.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -31,6 +33,7 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/child.h"
 #include "geometry/zip.h"
 
 namespace aircut::geometry {
@@ -142,8 +145,10 @@ void keep_only(Assimp::Importer& importer, const std::string& extension) {
   for (std::size_t i = importer.GetImporterCount(); i-- > 0;) {
     const aiImporterDesc* info = importer.GetImporterInfo(i);
     const std::string words = info != nullptr ? fmt::format(" {} ", info->mFileExtensions) : "";
-    if (words.find(" " + extension + " ") == std::string::npos)
-      importer.UnregisterLoader(importer.GetImporter(i));
+    if (words.find(" " + extension + " ") != std::string::npos) continue;
+    // Whoever takes an importer out owns it from then on.
+    const std::unique_ptr<Assimp::BaseImporter> taken_out(importer.GetImporter(i));
+    importer.UnregisterLoader(taken_out.get());
   }
 }
 
@@ -271,10 +276,8 @@ tl::expected<TriangleMesh, std::string> import_or_throw(const ImportSource& sour
   return Collector(*scene, unit, options.max_triangles).collect();
 }
 
-}  // namespace
-
-tl::expected<TriangleMesh, std::string> import_mesh(const ImportSource& source,
-                                                    const MeshFileOptions& options) {
+tl::expected<TriangleMesh, std::string> import_without_throwing(const ImportSource& source,
+                                                                const MeshFileOptions& options) {
   try {
     return import_or_throw(source, options);
   } catch (const std::bad_alloc&) {
@@ -284,6 +287,56 @@ tl::expected<TriangleMesh, std::string> import_mesh(const ImportSource& source,
   } catch (...) {
     return unexpected(std::string("can't be read: the importer gave up without a reason"));
   }
+}
+
+// From the child: 'e' and the error, or 'm', the two counts, vertices, triangles as they lie in
+// memory.
+
+template <class T>
+void put(std::string& out, const T* values, std::size_t count) {
+  out.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+}
+
+std::string packed(const tl::expected<TriangleMesh, std::string>& result) {
+  if (!result) return "e" + result.error();
+  std::string out = "m";
+  const std::array<std::uint64_t, 2> counts = {result->vertices.size(), result->triangles.size()};
+  put(out, counts.data(), counts.size());
+  put(out, result->vertices.data(), counts[0]);
+  put(out, result->triangles.data(), counts[1]);
+  return out;
+}
+
+tl::expected<TriangleMesh, std::string> unpacked(const std::string& bytes) {
+  if (bytes.starts_with('e')) return unexpected(bytes.substr(1));
+  TriangleMesh mesh;
+  using Corners = decltype(mesh.triangles)::value_type;
+  std::array<std::uint64_t, 2> counts{};
+  constexpr std::size_t head = 1 + sizeof(counts);
+  if (bytes.size() >= head) std::memcpy(counts.data(), bytes.data() + 1, sizeof(counts));
+  if (bytes.size() < head ||
+      bytes.size() - head != counts[0] * sizeof(Vec3) + counts[1] * sizeof(Corners))
+    return unexpected(std::string("can't be read: the importer gave half a result"));
+  mesh.vertices.resize(counts[0]);
+  mesh.triangles.resize(counts[1]);
+  const char* at = bytes.data() + head;
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i, at += sizeof(Vec3))
+    std::memcpy(mesh.vertices[i].data(), at, sizeof(Vec3));
+  if (!mesh.triangles.empty())
+    std::memcpy(mesh.triangles.data(), at, mesh.triangles.size() * sizeof(Corners));
+  return mesh;
+}
+
+}  // namespace
+
+tl::expected<TriangleMesh, std::string> import_mesh(const ImportSource& source,
+                                                    const MeshFileOptions& options) {
+  const auto bytes =
+      run_in_child([&] { return packed(import_without_throwing(source, options)); }, ChildLimits{});
+  if (!bytes)
+    return unexpected(fmt::format("can't be read as {}: the importer failed, {}", source.extension,
+                                  bytes.error()));
+  return unpacked(*bytes);
 }
 
 }  // namespace aircut::geometry
