@@ -1,10 +1,11 @@
-// The one place that knows where the OpenGL context comes from. A second back end (EGL surfaceless)
-// is one more class and one more factory.
+// The one place that knows where the OpenGL context comes from. Another back end is one more class
+// and one more factory.
 #pragma once
 
 #include <memory>
 
 #include "base/base.h"
+#include "render/render.h"
 
 namespace aircut::render {
 
@@ -19,5 +20,10 @@ class GlContext {
 
 /// A 3.3 core context on OSMesa's software rasteriser. Error kind `output_failed`.
 Expected<std::unique_ptr<GlContext>> create_osmesa_context();
+/// The same from EGL without a surface. Error kind `output_failed`.
+Expected<std::unique_ptr<GlContext>> create_egl_context();
+/// As asked for; `automatic` takes OSMesa, and EGL where OSMesa gives nothing. The error is then
+/// that of OSMesa, with EGL's as a note.
+Expected<std::unique_ptr<GlContext>> create_gl_context(Backend backend);
 
 }  // namespace aircut::render

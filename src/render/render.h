@@ -69,11 +69,15 @@ struct Scene {
   bool triad = true;
 };
 
+/// Where the OpenGL context comes from. Both are Mesa's software rasteriser, without a screen.
+enum class Backend : unsigned char { automatic, osmesa, egl };
+
 enum class Supersample : unsigned char { once, twice };
 
 struct FrameSize {
   int width = 1280, height = 800;               ///< pixels, 1 to 16384
   Supersample supersample = Supersample::once;  ///< on top of 4 samples a pixel
+  Backend backend = Backend::automatic;         ///< OSMesa, or EGL where there is none
 };
 
 /// Holds the off-screen context and uploaded meshes (by address). One per thread.

@@ -94,7 +94,7 @@ struct Renderer::Impl {
 };
 
 Expected<void> Renderer::Impl::start() {
-  auto made = create_osmesa_context();
+  auto made = create_gl_context(size.backend);
   if (!made) return unexpected(made.error());
   context = std::move(*made);
   auto loaded = load_gl(*context);

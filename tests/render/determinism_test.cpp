@@ -19,6 +19,21 @@ std::string digest() {
   return text.data();
 }
 
+TEST(Backends, DrawTheSamePicture) {
+  auto egl = Renderer::create({320, 200, Supersample::once, Backend::egl});
+  if (!egl) GTEST_SKIP() << egl.error().message;
+  auto osmesa = Renderer::create({320, 200, Supersample::once, Backend::osmesa});
+  ASSERT_TRUE(osmesa) << osmesa.error().message;
+  // Turn by turn, so that each has to bind its own context.
+  for (int i = 0; i < 2; ++i) {
+    const Image a = egl->draw(rich_scene(), rich_camera());
+    const Image b = osmesa->draw(rich_scene(), rich_camera());
+    EXPECT_LT(mean_difference(a, b), 0.5);
+    EXPECT_EQ(egl->visible_pixels(rich_scene(), rich_camera()),
+              osmesa->visible_pixels(rich_scene(), rich_camera()));
+  }
+}
+
 // Run in a process of its own by the test below.
 TEST(Determinism, SaysADigest) {
   std::printf("digest=%s\n", digest().c_str());
