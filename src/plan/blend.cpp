@@ -193,12 +193,12 @@ std::optional<CornerBlend> make_blend(const CornerShape& corner, const Demand& d
                      : arc_cut(corner, shape);
   if (!(cut > smallest_cut)) return std::nullopt;
   Blend blend = bezier(corner, shape, cut);
-  for (int round = 0; round < 4; ++round) {
-    const double need = demand(blend);
-    if (!(need < 0.98)) break;
-    const double smaller = std::max(cut * need * 1.005, smallest_cut);
-    Blend rounded = bezier(corner, shape, smaller);
-    if (!(demand(rounded) <= 1)) break;
+  double need = demand(blend);
+  for (int round = 0; round < 3 && need < 0.93; ++round) {
+    const double smaller = std::max(cut * need * 1.03, smallest_cut);
+    const Blend rounded = bezier(corner, shape, smaller);
+    need = demand(rounded);
+    if (!(need <= 1)) break;
     if (!lines && deviation(corner, rounded, smaller) > 1) break;
     cut = smaller;
     blend = rounded;

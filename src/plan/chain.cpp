@@ -85,7 +85,7 @@ void Chain::emit_final() {
   }
   if (final_count == 0 && nodes_ > max_nodes_) final_count = window_.size() / 2;
   emit(final_count);
-  next_try_ = 2 * nodes_ + 64;
+  next_try_ = 2 * nodes_ + 512;
   if (nodes_ < max_nodes_) next_try_ = std::min(next_try_, max_nodes_ + 1);
 }
 

@@ -44,10 +44,10 @@ class Chain {
 
   std::size_t max_nodes_;
   std::deque<Item> window_;
-  std::size_t nodes_ = 0;      ///< in the window
-  std::size_t next_try_ = 64;  ///< nodes at which it is worth looking for final pieces
-  double b_ = 0;               ///< squared speed at the start of the window, in its first piece's s
-  double clock_ = 0;           ///< program time, s
+  std::size_t nodes_ = 0;       ///< in the window
+  std::size_t next_try_ = 512;  ///< nodes at which it is worth looking for final pieces
+  double b_ = 0;      ///< squared speed at the start of the window, in its first piece's s
+  double clock_ = 0;  ///< program time, s
   std::deque<Segment> ready_;
 };
 

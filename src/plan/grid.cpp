@@ -22,8 +22,10 @@ namespace {
 using machine::JointVector;
 using machine::ReachError;
 
-constexpr double row_tolerance = 2e-3;        // lines and arcs
-constexpr double blend_row_tolerance = 1e-2;  // a blend is short: coarser, with more slack
+constexpr double row_tolerance = 2e-3;         // lines and arcs
+constexpr double blend_row_tolerance = 1e-2;   // a blend is short: coarser, with more slack
+constexpr double moment_row_tolerance = 4e-2;  // passed in less than `moment`
+constexpr double moment = 1e-3;                // s
 constexpr double speed_tolerance = 2e-3;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -55,6 +57,7 @@ class GridMaker {
   double feed_;
   const JointLimits& limits_;
   double length_;
+  double row_tolerance_ = row_tolerance;
   double ramp_ = 0;  ///< way of a ramp from rest at the ends
   Grid grid_;
   std::optional<GridFailure> failure_;
@@ -62,7 +65,7 @@ class GridMaker {
 
 tl::expected<Node, ReachError> GridMaker::node(double s, const JointVector& near) const {
   const PathPoint p = evaluate(path_.path(), s);
-  auto joint = path_.point(s, near);
+  auto joint = path_.point(p, near);
   if (!joint) return unexpected(joint.error());
   Node out;
   out.s = s;
@@ -104,8 +107,6 @@ bool GridMaker::is_uniform(bool identity, const Node& first, const Node& last) c
 
 // Largest error of the rows of an interval as a share of a limit; nothing when it is too coarse.
 std::optional<double> GridMaker::row_error(const Node& a, const Node& m, const Node& b) const {
-  const double tolerance =
-      std::holds_alternative<Blend>(path_.path()) ? blend_row_tolerance : row_tolerance;
   double worst = 0;
   const double ds = b.s - a.s;
   const double end_distance = std::min(b.s, length_ - a.s);
@@ -124,7 +125,7 @@ std::optional<double> GridMaker::row_error(const Node& a, const Node& m, const N
     const double off_beta = std::abs(m.beta[j] - (a.beta[j] + b.beta[j]) / 2);
     const double product = std::abs(b.beta[j] - a.beta[j]) * std::min(ds * u, speed2) / 8;
     worst = std::max(worst, off_alpha * u + off_beta * speed2 + product);
-    if (worst > tolerance) return std::nullopt;
+    if (worst > row_tolerance_) return std::nullopt;
     const double to_v = limits_.a[j] / limits_.v[j] * speed;  // α to a share of the joint's speed
     if (off_alpha * to_v > speed_tolerance) return std::nullopt;
     const double change = (b.alpha[j] - a.alpha[j]) * to_v;
@@ -168,7 +169,7 @@ bool GridMaker::split(const Node& a, const Node& b, int depth) {
       return false;
     }
   }
-  const double room = 1 - std::min(error.value_or(0), row_tolerance + blend_row_tolerance) / 2;
+  const double room = 1 - std::min(error.value_or(0), row_tolerance_) / 2;
   add(*middle, room);
   add(b, room);
   return true;
@@ -195,6 +196,10 @@ tl::expected<Grid, GridFailure> GridMaker::make(bool identity, const JointVector
   if (grid_.uniform) grid_.uniform_a = 1 / first->alpha.cwiseAbs().maxCoeff();
   const double alpha = std::max(first->alpha.cwiseAbs().maxCoeff(), 1e-300);
   ramp_ = std::min(std::max(first->cap, last->cap) * alpha / 2, length_);
+  if (std::holds_alternative<Blend>(path_.path())) {
+    const double fastest = std::sqrt(std::max(first->cap, last->cap));
+    row_tolerance_ = length_ < moment * fastest ? moment_row_tolerance : blend_row_tolerance;
+  }
   grid_.dq_start = first->joint.dq;
   grid_.dq_end = last->joint.dq;
   grid_.q_end = last->joint.q;

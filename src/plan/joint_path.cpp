@@ -118,8 +118,8 @@ tl::expected<JointVector, ReachError> JointPath::joints(double s, const JointVec
   return kinematics_->inverse(Target{evaluate(*path_, s).p, tool_offset_}, near);
 }
 
-tl::expected<JointPoint, ReachError> JointPath::point(double s, const JointVector& near) const {
-  const PathPoint p = evaluate(*path_, s);
+tl::expected<JointPoint, ReachError> JointPath::point(const PathPoint& p,
+                                                      const JointVector& near) const {
   return joint_point(*kinematics_, Target{p.p, tool_offset_}, p.d, p.dd, near);
 }
 

@@ -14,8 +14,9 @@ class JointPath {
   /// Joints at s; `near` chooses the branch.
   tl::expected<machine::JointVector, machine::ReachError> joints(
       double s, const machine::JointVector& near) const;
-  /// Joints with derivatives; the error also says when they are not finite (a singular pose).
-  tl::expected<JointPoint, machine::ReachError> point(double s,
+  /// Joints with derivatives at a point of the path; the error also says when they are not finite
+  /// (a singular pose).
+  tl::expected<JointPoint, machine::ReachError> point(const PathPoint& p,
                                                       const machine::JointVector& near) const;
   const Path& path() const { return *path_; }
   const AxisValues& tool_offset() const { return tool_offset_; }

@@ -8,8 +8,8 @@
 //         with ρ linear from start_radius to end_radius; the other six axes are linear in s. The
 //         start and end points of the piece are taken as they are programmed: `start` gives the
 //         height along the normal, so centre may be any point of the axis.
-// Blend   quintic Bezier in nine axes with parameter u = s / length; derivatives and sub-ranges by
-//         de Casteljau, boxes from the control points (a Bezier lies in their hull, and its way is
+// Blend   quintic Bezier in nine axes with parameter u = s / length; sub-ranges by de Casteljau,
+// boxes from the control points (a Bezier lies in their hull, and its way is
 //         no longer than the control polygon, axis by axis).
 #include <algorithm>
 #include <cmath>
@@ -59,23 +59,58 @@ PathPoint evaluate_arc(const Arc& arc, double s) {
   return out;
 }
 
+// Weights of the six control points, from the Bernstein polynomials of degree 5 − order: derivative
+// number `order` by u is 5 · 4 · … times the differences of that order.
+struct Weights {
+  std::array<std::array<double, 6>, 4> of{};
+};
+
+Weights weights_at(double u) {
+  Weights out;
+  const double v = 1 - u;
+  const double u2 = u * u, v2 = v * v, u3 = u2 * u, v3 = v2 * v;
+  out.of[0] = {v3 * v2, 5 * v2 * v2 * u, 10 * v3 * u2, 10 * v2 * u3, 5 * v * u2 * u2, u3 * u2};
+  const std::array<double, 5> b4 = {v2 * v2, 4 * v3 * u, 6 * v2 * u2, 4 * v * u3, u2 * u2};
+  const std::array<double, 4> b3 = {v3, 3 * v2 * u, 3 * v * u2, u3};
+  const std::array<double, 3> b2 = {v2, 2 * v * u, u2};
+  for (std::size_t i = 0; i < 5; ++i) {
+    out.of[1][i] -= 5 * b4[i];
+    out.of[1][i + 1] += 5 * b4[i];
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    out.of[2][i] += 20 * b3[i];
+    out.of[2][i + 1] -= 40 * b3[i];
+    out.of[2][i + 2] += 20 * b3[i];
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.of[3][i] -= 60 * b2[i];
+    out.of[3][i + 1] += 180 * b2[i];
+    out.of[3][i + 2] -= 180 * b2[i];
+    out.of[3][i + 3] += 60 * b2[i];
+  }
+  return out;
+}
+
 PathPoint evaluate_blend(const Blend& blend, double s) {
-  const double u = std::clamp(s / blend.length, 0.0, 1.0);
-  const double k = 1 / blend.length;
+  const Weights w = weights_at(std::clamp(s / blend.length, 0.0, 1.0));
   PathPoint out;
-  for (const Axis axis : all_axes) {
-    std::array<double, 6> c{};
-    for (std::size_t i = 0; i < 6; ++i) c[i] = blend.control[i][axis];
-    // After `level` rounds the differences of the remaining points give the derivative of order
-    // 5 − level … ; three rounds are kept back.
-    for (std::size_t n = 5; n > 3; --n)
-      for (std::size_t i = 0; i < n; ++i) c[i] += u * (c[i + 1] - c[i]);
-    out.ddd[axis] = 60 * (c[3] - 3 * c[2] + 3 * c[1] - c[0]) * k * k * k;
-    for (std::size_t i = 0; i < 3; ++i) c[i] += u * (c[i + 1] - c[i]);
-    out.dd[axis] = 20 * (c[2] - 2 * c[1] + c[0]) * k * k;
-    for (std::size_t i = 0; i < 2; ++i) c[i] += u * (c[i + 1] - c[i]);
-    out.d[axis] = 5 * (c[1] - c[0]) * k;
-    out.p[axis] = c[0] + u * (c[1] - c[0]);
+  // Relative to the first point: small blends far from zero keep their digits. The sums over the
+  // nine axes are the inner loops, so that they run side by side.
+  for (std::size_t i = 1; i < 6; ++i) {
+    const AxisValues p = blend.control[i] - blend.control[0];
+    for (std::size_t k = 0; k < 9; ++k) {
+      out.p.value[k] += w.of[0][i] * p.value[k];
+      out.d.value[k] += w.of[1][i] * p.value[k];
+      out.dd.value[k] += w.of[2][i] * p.value[k];
+      out.ddd.value[k] += w.of[3][i] * p.value[k];
+    }
+  }
+  const double scale = 1 / blend.length;
+  for (std::size_t k = 0; k < 9; ++k) {
+    out.p.value[k] += blend.control[0].value[k];
+    out.d.value[k] *= scale;
+    out.dd.value[k] *= scale * scale;
+    out.ddd.value[k] *= scale * scale * scale;
   }
   return out;
 }
@@ -147,15 +182,15 @@ machine::TipInterval bounds_blend(const Blend& blend, double s0, double s1) {
   const Blend part = sub_blend(blend, s0 / blend.length, s1 / blend.length);
   machine::TipInterval out;
   for (const Axis axis : all_axes) {
-    double low = part.control[0][axis], high = low, travel = 0, size = std::abs(low);
+    double low = part.control[0][axis], high = low, travel = 0, size = 0;
+    for (const AxisValues& p : blend.control) size = std::max(size, std::abs(p[axis]));
     for (std::size_t i = 1; i < 6; ++i) {
       const double value = part.control[i][axis];
       low = std::min(low, value);
       high = std::max(high, value);
-      size = std::max(size, std::abs(value));
       travel += std::abs(value - part.control[i - 1][axis]);
     }
-    const double slack = high > low ? 4e-15 * size : 0;
+    const double slack = high > low ? 1e-14 * size : 0;
     out.low[axis] = low - slack;
     out.high[axis] = high + slack;
     out.travel[axis] = travel + 2 * slack;

@@ -66,7 +66,7 @@ Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, doub
 double Shaper::demand(const Blend& blend, double feed) const {
   double worst = 0;
   machine::JointVector near = joints_;
-  constexpr int samples = 12;
+  constexpr int samples = 8;
   for (int k = 0; k <= samples; ++k) {
     const PathPoint p = evaluate(blend, blend.length * k / samples);
     const auto joint =
