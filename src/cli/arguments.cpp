@@ -257,10 +257,12 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   };
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ExtrasError& e) {
-    std::string word = e.what();
-    if (const std::size_t colon = word.rfind(": "); colon != std::string::npos)
-      word = word.substr(colon + 2);
+  } catch (const CLI::ExtrasError&) {
+    // An option that is not known comes with its value among the rest.
+    const std::vector<std::string> rest = active()->remaining();
+    std::string word = rest.empty() ? "" : rest.front();
+    for (const std::string& text : rest)
+      if (text.starts_with("-") && !word.starts_with("-")) word = text;
     std::string message = "'" + printable(word) + "' is not understood here.";
     if (word.starts_with("-")) {
       message = "there is no option '" + printable(word) + "'." +
@@ -281,6 +283,15 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     std::printf("%s\n", e.what());
     return 0;
   } catch (const CLI::ParseError& e) {
+    CLI::App* at = active() == c_machine ? c_machine : &app;
+    const std::string word = at == &app ? (argc > 1 ? argv[1] : "") : (argc > 2 ? argv[2] : "");
+    if (active() == at && !word.empty() && !word.starts_with("-")) {
+      std::vector<std::string> names;
+      for (const CLI::App* sub : at->get_subcommands({})) names.push_back(sub->get_name());
+      return usage_error(make_error("usage", "there is no command '" + printable(word) + "'." +
+                                                 did_you_mean(word, names)),
+                         at == &app ? "" : at->get_name());
+    }
     return usage_error(make_error("usage", e.what()), active() == &app ? "" : active()->get_name());
   }
 

@@ -131,10 +131,10 @@ std::string padded_time(double t) {
 }  // namespace
 
 Expected<void> add_frames(FrameSpec& spec, const std::string& text) {
-  const auto help = [&](const std::string& what) {
-    return unexpected(
-        usage("--frames " + printable(text) + ": " + what +
-              "; it takes every=2s, at=12.5,80, line=128, tool-change, finding or count=24"));
+  const auto help = [&](const std::string& what, const std::string& hint = "") {
+    return unexpected(usage(
+        "--frames " + printable(text) + ": " + what +
+        "; it takes every=2s, at=12.5,80, line=128, tool-change, finding or count=24." + hint));
   };
   if (text == "finding") {
     spec.findings = true;
@@ -148,7 +148,7 @@ Expected<void> add_frames(FrameSpec& spec, const std::string& text) {
   const std::string key = text.substr(0, equals);
   const std::vector<std::string> known = {"every", "at", "line", "count", "finding", "tool-change"};
   if (std::find(known.begin(), known.end(), key) == known.end())
-    return help("'" + printable(key) + "' is not known." + did_you_mean(key, known));
+    return help("'" + printable(key) + "' is not known", did_you_mean(key, known));
   if (equals == std::string::npos) return help("'" + key + "' needs a value");
   std::vector<double> values;
   std::string rest = text.substr(equals + 1);

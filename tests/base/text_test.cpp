@@ -30,6 +30,7 @@ TEST(NearestWord, FindsWhatWasMeantAndNothingElse) {
   const std::vector<std::string> known = {"collision", "ignore", "tolerance"};
   EXPECT_EQ(nearest_word("colision", known), "collision");
   EXPECT_EQ(nearest_word("toleranse", known), "tolerance");
+  EXPECT_EQ(nearest_word("ignoer", known), "ignore");
   EXPECT_FALSE(nearest_word("spindle", known));
   EXPECT_FALSE(nearest_word(std::string(100'000, 'x'), known));
 }

@@ -36,6 +36,8 @@ TEST_F(Collision, FindsAThinPlateCrossedByARapid) {
 
 TEST_F(Collision, GoesOnFindingContactsInLaterBlocks) {
   const RunResult r = run("G21 G90 G61\nG0 X150\nG0 X0\nM2\n");
+  for (const Finding& f : r.findings)
+    EXPECT_EQ(f.kind, Kind::collision) << f.message << " at " << f.t_first << " … " << f.t_end;
   ASSERT_EQ(r.findings.size(), 2u);  // and no near misses beside them
   EXPECT_EQ(r.count(Kind::collision), 2);
   EXPECT_EQ(r.findings.at(0).span.line, 2u);

@@ -313,7 +313,10 @@ class CollisionCheck final : public Check {
                        clear_time_ += t1 - t;
                        // Parting after a contact is no near miss of its own.
                        const bool parting = pair.contact_end >= 0 && t <= pair.contact_end + 1e-6;
-                       if (parting && near.distance_low <= 4 * proof.resolution) return;
+                       if (parting &&
+                           distance_at(a, b, t, near.distance_high + 3 * proof.resolution, cache) <=
+                               near.distance_high + 2 * proof.resolution)
+                         return;
                        report_near(step, a.body, b.body, near, cache, out);
                      },
                      [&](const collide::Hit& hit) {
@@ -387,19 +390,23 @@ class CollisionCheck final : public Check {
   // When bodies that part are clearly apart, after time t; t1 if they aren't until then.
   double end_of_touch(const SceneBody& a, const SceneBody& b, double t, double t1,
                       double resolution, PoseCache& cache) {
-    const auto touching = [&](double at) {
-      const LinkPoses* poses = cache.at(at);
-      ++cost_.distance_queries;
-      return !poses || collide::distance(*a.collision, mesh_pose(a.body, *poses), *b.collision,
-                                         mesh_pose(b.body, *poses), 3 * resolution)
-                               .value <= 2 * resolution;
-    };
     constexpr int steps = 256;
     for (int i = 1; i <= steps; ++i) {
       const double at = t + (t1 - t) * i / steps;
-      if (!touching(at)) return at;
+      if (distance_at(a, b, at, 3 * resolution, cache) > 2 * resolution) return at;
     }
     return t1;
+  }
+
+  // Distance at time t, looked for up to `bound`; 0 for a pose that doesn't exist.
+  double distance_at(const SceneBody& a, const SceneBody& b, double t, double bound,
+                     PoseCache& cache) {
+    const LinkPoses* poses = cache.at(t);
+    ++cost_.distance_queries;
+    if (!poses) return 0;
+    return collide::distance(*a.collision, mesh_pose(a.body, *poses), *b.collision,
+                             mesh_pose(b.body, *poses), bound)
+        .value;
   }
 
   bool overlap_at(const SceneBody& a, const SceneBody& b, double t, PoseCache& cache) {
