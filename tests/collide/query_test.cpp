@@ -77,6 +77,23 @@ TEST(Distance, IsRightForEdgesThatAreParallelUpToRounding) {
   }
 }
 
+TEST(Distance, IsRightForTurnedTrianglesInParallelPlanes) {
+  Random random(13);
+  const auto triangle = [](const Vec3& at) {
+    return TriangleMesh{{at, at + Vec3(4, 0, 0), at + Vec3(0, 3, 0)}, {{0, 1, 2}}};
+  };
+  for (int i = 0; i < 3000; ++i) {
+    const Pose turn = random.turned();
+    const double height = random.uniform(0.1, 1);
+    const TriangleMesh a = transformed(triangle(Vec3::Zero()), turn);
+    // Shifted along an edge by less than its length, so that the faces are over each other.
+    const TriangleMesh b =
+        transformed(triangle({random.uniform(-1, 1), random.uniform(-0.5, 0.5), height}), turn);
+    const CollisionMesh ca(a), cb(b);
+    ASSERT_NEAR(distance(ca, origin, cb, origin, 1e9).value, height, 1e-9) << i;
+  }
+}
+
 TEST(Distance, AgreesWithAllTrianglePairsOnRandomPoses) {
   Random random(11);
   int met = 0;
