@@ -136,13 +136,17 @@ class Generator {
   std::string rotation() {
     return rotates_ && one_in(2) ? " R" + pick({"30", "90", "-45", "0", "12.5"}) : "";
   }
-  /// The stand-in of the reference for a tool changer loses the rotation of the current position
-  /// (docs/peer.md), so a program has tool changes or rotation.
+  /// The stand-in of the reference for a tool changer loses rotation and length offset of the
+  /// current position (docs/peer.md), so a program has tool changes or rotation.
   void change_tool(int number) {
     if (rotates_) return add("T" + std::to_string(number));
+    add("G49");
     add("T" + std::to_string(number) + " M6");
     add("M3");
+    has_tool_ = true;
   }
+  /// The stand-in takes tool 1 for loaded as long as none is, so tool 1 is left alone then.
+  std::string table_tool() { return std::to_string((has_tool_ ? 1 : 2) + below(2)); }
   std::string feed() { return inverse_time_ ? " F" + std::to_string(1 + below(9)) : ""; }
 
   // ---- families
@@ -151,7 +155,7 @@ class Generator {
     if (one_in(12)) line = "G53 " + line;
     if (one_in(8)) line += " F" + std::to_string(10 + below(300));
     if (one_in(15)) line += " (a comment)";
-    if (one_in(20)) line += " G" + pick({"90", "91", "20", "21", "17", "18"});
+    if (one_in(20)) line += " G" + pick({"90", "91", "20", "21", "17"});
     if (one_in(12)) line += " M" + pick({"3", "4", "7", "8", "9"});
     add(line);
   }
@@ -296,14 +300,13 @@ class Generator {
         add("G43");
         break;
       case 4:
-        add("G10 L1 P" + std::to_string(1 + below(3)) + offset_words() +
-            (one_in(3) ? " R" + decimal(1, 5) : ""));
+        add("G10 L1 P" + table_tool() + offset_words() + (one_in(3) ? " R" + decimal(1, 5) : ""));
         break;
       case 5:
-        add("G10 L" + pick({"10", "11"}) + " P" + std::to_string(1 + below(3)) + offset_words());
+        add("G10 L" + pick({"10", "11"}) + " P" + table_tool() + offset_words());
         break;
       case 6:
-        change_tool(below(4));
+        change_tool(1 + below(3));
         add("(DEBUG,#5400 #5401 #5402 #5403 #5410 #5413)");
         break;
       case 7:
@@ -333,12 +336,13 @@ class Generator {
     if (code == "G82" || code == "G89" || code == "G86" || (code == "G84" && one_in(2)))
       line += " P0." + std::to_string(1 + below(9));
     if (code == "G83" || code == "G73") line += " Q" + decimal(1, 6);
-    if (one_in(4)) line += " L" + std::to_string(1 + below(3));
+    // The reference refuses L with G74.
+    if (one_in(4) && code != "G74") line += " L" + std::to_string(1 + below(3));
     add(line);
     for (int more = below(3); more > 0; --more)
       add(ends(decimal(-20, 20), decimal(-20, 20)).substr(1) +
           (one_in(4) ? depth[plane_] + decimal(-12, -1) : std::string()) +
-          (one_in(5) ? " L2" : "") + (one_in(5) ? " R" + decimal(1, 9) : ""));
+          (one_in(5) && code != "G74" ? " L2" : "") + (one_in(5) ? " R" + decimal(1, 9) : ""));
     if (one_in(5)) add(pick({"G81", "G82 X1", "G83 Y2", "G98", "G99"}));
     if (incremental) add("G90");
     if (!one_in(4)) add("G80");
@@ -401,7 +405,10 @@ class Generator {
         if (one_in(2)) {
           const std::string inner = label();
           add(inner + " if [#10 EQ 2]");
-          add(o + pick({" break", " continue"}));
+          // After a break the reference runs every do loop once only.
+          const bool breaks = !has_do_ && one_in(2);
+          has_break_ = has_break_ || breaks;
+          add(o + (breaks ? " break" : " continue"));
           add(inner + " endif");
         }
         add("G0 X#10");
@@ -409,6 +416,8 @@ class Generator {
         break;
       }
       case 3:
+        if (has_break_) return parameter();
+        has_do_ = true;
         add("#10=0");
         add(o + " do");
         add("#10=[#10+1]");
@@ -677,6 +686,8 @@ class Generator {
   int line_ = 0;
   int labels_ = 0;
   bool rotates_ = false;
+  bool has_tool_ = false;
+  bool has_break_ = false, has_do_ = false;
   int plane_ = 0;  // 0 XY, 1 ZX, 2 YZ
   bool inverse_time_ = false;
 };
