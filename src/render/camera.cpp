@@ -167,6 +167,12 @@ double View::depth(const Vec3& world) const {
   return (clip.z() / clip.w() + 1) / 2;
 }
 
+double View::distance_of(double depth) const {
+  const double ndc = 2 * depth - 1;
+  const Eigen::Matrix4d& P = projection;
+  return orthographic ? (P(2, 3) - ndc) / P(2, 2) : P(2, 3) / (ndc + P(2, 2));
+}
+
 std::optional<Eigen::Vector2d> View::pixel(const Vec3& world) const {
   const Vec3 p = world - centre;
   const Eigen::Vector4d clip = view_projection() * Eigen::Vector4d(p.x(), p.y(), p.z(), 1);

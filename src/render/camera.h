@@ -25,6 +25,8 @@ struct View {
   std::optional<Eigen::Vector2d> pixel(const Vec3& world) const;
   /// Depth buffer value of a world point, 0 to 1.
   double depth(const Vec3& world) const;
+  /// Distance in front of the eye, mm along the view, of a depth buffer value.
+  double distance_of(double depth) const;
 };
 
 /// `contents` is what must lie between the clipping planes, world.

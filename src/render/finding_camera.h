@@ -11,6 +11,7 @@ struct ContactView {
   std::vector<int> ids;
   bool point_is_open = false;  ///< nothing but bodies in alarm lies between the eye and the contact
   double foreground = 0;       ///< share of pixels with other bodies well in front of the contact
+  double cover = 0;  ///< how far in front of the contact the bodies in alarm begin, in spans
 };
 /// Larger is better. Pixels of every body in alarm count, those near the middle most; a view that
 /// shows both bodies beats one that shows twice as much of a single one.

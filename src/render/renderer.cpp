@@ -233,6 +233,8 @@ Camera Renderer::camera_for_finding(const std::vector<DrawBody>& bodies, const V
   const int height =
       std::clamp(static_cast<int>(std::lround(r.size.height * shrink)), 1, r.tile_height);
   const Tile tile{0, 0, width, height};
+  const auto middle = static_cast<std::size_t>(height / 2) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(width / 2);
   const Painter painter(r.gl, r.programs, r.targets);
   Scene scene;
   scene.bodies = bodies;
@@ -252,6 +254,10 @@ Camera Renderer::camera_for_finding(const std::vector<DrawBody>& bodies, const V
     painter.draw_ids(stage, tile,
                      [](const DrawBody& body) { return !body.translucent && body.highlight; });
     view.ids = decode_ids(r.read_tile(tile));
+    const View& v = stage.view;
+    view.cover = (v.distance_of(v.depth(point)) -
+                  v.distance_of(static_cast<double>(r.read_depths(width, height)[middle]))) /
+                 std::max(span, 1e-9);
     const double score = contact_score(view, bodies) - cost_of_rank * rank++;
     if (score > best_score + 1e-9) {
       best = camera;

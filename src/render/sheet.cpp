@@ -28,7 +28,7 @@ SheetLayout lay_out(const std::vector<SheetCell>& cells, int columns, int cell_w
   out.columns = std::clamp(columns, 1, std::max(count, 1));
   out.rows = (count + out.columns - 1) / out.columns;
   out.cell_width = std::clamp(cell_width, 16, 4096);
-  out.text = std::clamp(out.cell_width / 28, 9, 28);
+  out.text = std::clamp(out.cell_width / 32, 9, 28);
   out.title = out.text + out.text / 2;
   out.gap = std::max(6, out.cell_width / 32);
   out.caption_height = 2 * out.text;

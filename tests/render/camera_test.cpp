@@ -63,6 +63,19 @@ TEST(Camera, RefusesAnUnknownNameAndNamesTheNearest) {
     EXPECT_FALSE(camera_by_name(text, Box3(), 1)) << text;
 }
 
+TEST(Camera, TurnsDepthsBackIntoDistances) {
+  const Box3 box(Vec3(-100, -100, -100), Vec3(100, 100, 100));
+  Camera camera;
+  camera.eye = Vec3(0, -500, 0);
+  for (const double field_of_view : {0.5, 0.0}) {
+    camera.field_of_view = field_of_view;
+    camera.height = 200;
+    const View view = make_view(camera, box, 400, 300);
+    for (const double y : {-90.0, 0.0, 75.0})
+      EXPECT_NEAR(view.distance_of(view.depth(Vec3(10, y, 20))), 500 + y, 1e-6);
+  }
+}
+
 TEST(Camera, FitsABoxWithoutSize) {
   for (const Box3& box : {Box3(), Box3(Vec3(5, 5, 5), Vec3(5, 5, 5))}) {
     const auto camera = camera_by_name("iso", box, 1.5);

@@ -61,6 +61,12 @@ TEST(FindingCamera, PrefersBothBodiesToMoreOfOne) {
   ContactView hidden = both;
   hidden.point_is_open = false;
   EXPECT_GT(contact_score(both, bodies), contact_score(hidden, bodies));
+  ContactView behind = both;
+  behind.cover = 0.3;
+  EXPECT_GT(contact_score(both, bodies), contact_score(behind, bodies));
+  ContactView blocked = both;
+  blocked.foreground = 0.5;
+  EXPECT_GT(contact_score(both, bodies), contact_score(blocked, bodies));
   ContactView nothing{20, 20, std::vector<int>(400, 0), true};
   EXPECT_EQ(contact_score(nothing, bodies), 0);
 }
