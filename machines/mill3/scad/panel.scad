@@ -4,8 +4,8 @@ include <params.scad>
 mirror([1, 0, 0]) translate([790, -560, 0]) {
   // post on the tray's side, arm, tilted box with screen, keys, and emergency stop
   translate([-40, 120, 300]) disc(26, 1160, 3);
-  block_at([-78, 90, 320], [-12, 150, 400], 5);
-  block_at([-78, 90, 760], [-12, 150, 840], 5);
+  block_at([-71, 90, 320], [-12, 150, 400], 5);
+  block_at([-71, 90, 760], [-12, 150, 840], 5);
   translate([-40, 120, 1420]) disc(36, 60, 4);
   block_at([-60, -60, 1430], [-20, 125, 1470], 5);
   translate([-40, -70, 1230]) rotate([12, 0, -18]) difference() {
