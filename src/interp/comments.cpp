@@ -1,4 +1,5 @@
 // Comments that do something: MSG, DEBUG, PRINT, LOG…, PROBE…, ABORT.
+#include <algorithm>
 #include <cmath>
 
 #include "base/text.h"
@@ -124,7 +125,8 @@ void comment_action(std::string_view text, Place place, BlockRun& run) {
     return run.emit_now(canon::LogFile{LogKind::probe_open, std::string(trimmed(*rest))});
   if (const auto rest = behind(text, "probeclose"))
     return run.emit_now(canon::LogFile{LogKind::probe_close, {}});
-  run.emit(canon::Message{Kind::comment, std::string(trimmed(text))});
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  run.emit(canon::Message{Kind::comment, std::string(text)});
 }
 
 }  // namespace aircut::interp

@@ -241,7 +241,12 @@ bool Compensator::join(BlockRun& run, Path& next, Point corner, bool is_rapid) {
   const Point before = last_->end_normal;
   double beta =
       -side * std::atan2(cross(before, next.start_normal), dot(before, next.start_normal));
-  if (beta < -(std::numbers::pi - corner_angle)) beta += 2 * std::numbers::pi;
+  // Turning back counts as an outside corner, up to a little more than half a turn; before an arc
+  // that bends towards the old element, to a little less, as both cross behind the corner.
+  const bool bends_back = next.is_arc && next.left_turn == (side < 0);
+  const double most = std::numbers::pi + (bends_back ? -corner_angle : corner_angle);
+  if (beta < most - 2 * std::numbers::pi) beta += 2 * std::numbers::pi;
+  if (beta > most) beta -= 2 * std::numbers::pi;
   if (state.comp.radius < same_point) beta = 0;
   if (beta < -corner_angle) {
     if (!meet_inside(run, next, corner)) return false;

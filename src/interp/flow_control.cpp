@@ -49,19 +49,9 @@ FlowIndex& Interpreter::Impl::flow_of(ProgramFile& file) {
   return *file.flow;
 }
 
+// A comment on the line of an O-word does nothing, not even (MSG, …).
 void Interpreter::Impl::execute_oword(Block& block) {
   Frame& frame = frames_.back();
-  if (block.comment) {
-    BlockRun run(session_, block, state_, *this, queue_);
-    const Comment& comment = *block.comment;
-    comment_action(
-        frame.file->text->content().substr(block.begin + comment.text_begin, comment.text_length),
-        comment.place, run);
-    if (!run.ok()) {
-      report(*run.fault());
-      return stop();
-    }
-  }
   OWord& oword = block.oword;
   if (oword.entry < 0) oword.entry = flow_of(*frame.file).at(block.begin);
   const int at = oword.entry;
@@ -448,10 +438,6 @@ void Interpreter::Impl::leave_sub(Block& block, int at) {
                   frame.fanuc ? "a sub called with M98 ends with M99"
                               : "return and endsub work inside a sub only");
   }
-  const int sub = frame.sub;
-  if (entry(sub).label != entry(at).label)
-    return report("label_missing", block.oword.place,
-                  "this line is in " + written(entry(sub).label) + " sub; use its label");
   // The value may be made of the last one, so that is forgotten only now.
   std::optional<double> value;
   if (!block.oword.arguments.empty()) value = condition(block);

@@ -137,7 +137,7 @@ double Interpreter::Impl::predefined(int which) const {
     case 49:
       return loaded ? loaded->pocket : 0;
     case 50:
-      return s.selected_tool;
+      return std::max(0, s.selected_tool);
     case 51:
       return selected ? selected->pocket : s.selected_tool;
     case 52:

@@ -76,6 +76,8 @@ void tool_word(BlockRun&);
 std::optional<int> spindle_of(BlockRun& run, int otherwise);
 /// The tip position that the axis words mean, or nothing with an error.
 std::optional<AxisValues> target_of(BlockRun& run);
+/// Moves the point (program coordinates) to where @ and ^ put it; false with an error.
+bool apply_polar(BlockRun& run, double& x, double& y);
 /// True when a feed is set for the move; else the error is recorded.
 bool feed_is_set(BlockRun& run, const CodeRule& rule);
 /// Makes `next`'s settings of work system `system` the ones in force, from the parameters.

@@ -17,6 +17,7 @@
 namespace aircut::interp {
 namespace {
 
+constexpr double rounding = 1e-9;   // mm, of a level that was turned into machine coordinates
 constexpr int max_moves = 100'000;  // of one line, so that it can't fill the memory
 
 class Cycle {
@@ -205,13 +206,14 @@ void Cycle::execute() {
                           fixed(r_, 4) + " mm); R must be above it");
   if (!count_moves(repeats)) return;
   clear_ = state_.retract_to_r ? r_ : std::max(r_, cycle.initial);
-  if (cycle.initial < r_) rapid_to(r_, "rise to R");
+  if (std::fabs(c_ - r_) < rounding) c_ = r_;
+  if (cycle.initial < r_ - rounding) rapid_to(r_, "rise to R");
   const bool exact = state_.path_mode == canon::PathMode::exact_path;
   if (!exact) run_.emit(canon::SetPathMode{canon::PathMode::exact_path, 0});
-  for (int i = 1; i <= repeats; ++i) repeat(i, repeats);
-  if (!exact) run_.emit(canon::SetPathMode{state_.path_mode, state_.path_tolerance});
-  if (state_.path_mode == canon::PathMode::continuous)
-    run_.emit(canon::SetNaiveCam{state_.naive_tolerance});
+  for (int i = 1; i <= repeats && run_.ok(); ++i) repeat(i, repeats);
+  if (exact) return;
+  run_.emit(canon::SetPathMode{state_.path_mode, state_.path_tolerance});
+  run_.emit(canon::SetNaiveCam{state_.naive_tolerance});
 }
 
 void Cycle::repeat(int number, int repeats) {
@@ -220,6 +222,7 @@ void Cycle::repeat(int number, int repeats) {
   double a = a_, b = b_;
   if (const auto value = run_.axis(axes_.first)) a = state_.incremental ? a_ + *value : *value;
   if (const auto value = run_.axis(axes_.second)) b = state_.incremental ? b_ + *value : *value;
+  if ((run_.has('@') || run_.has('^')) && !apply_polar(run_, a, b)) return;
   // Below the level of retraction the way to the hole rises to it on the way.
   move(true, a, b, std::max(c_, clear_), "to the hole");
   if (c_ > r_) rapid_to(r_, "down to R");

@@ -6,11 +6,9 @@
 #include "interp/codes/codes.h"
 
 namespace aircut::interp {
-namespace {
-
 // @ is the distance from the origin of the program, ^ the angle (interp.md 8). A missing part keeps
 // that of the current point; with G91 both are added to it.
-bool apply_polar(BlockRun& run, AxisValues& program) {
+bool apply_polar(BlockRun& run, double& x, double& y) {
   const ModalState& state = run.state;
   const char first = run.has('@') ? '@' : '^';
   if (state.plane != canon::Plane::xy) {
@@ -26,7 +24,6 @@ bool apply_polar(BlockRun& run, AxisValues& program) {
     run.error("polar_error", first, "polar words (@ ^) can't be used with G53; give X and Y");
     return false;
   }
-  const double x = program[Axis::x], y = program[Axis::y];
   double radius = std::hypot(x, y);
   if (radius == 0 && (!run.has('^') || state.incremental)) {
     run.error("polar_error", first, "at the origin the angle is not defined; give ^ with G90");
@@ -37,10 +34,12 @@ bool apply_polar(BlockRun& run, AxisValues& program) {
     radius = *r * state.unit_mm() + (state.incremental ? radius : 0);
   if (const auto a = run.number('^'))
     angle = *a * radian_per_degree + (state.incremental ? angle : 0);
-  program[Axis::x] = radius * std::cos(angle);
-  program[Axis::y] = radius * std::sin(angle);
+  x = radius * std::cos(angle);
+  y = radius * std::sin(angle);
   return true;
 }
+
+namespace {
 
 std::optional<AxisValues> machine_target(BlockRun& run) {
   const ModalState& state = run.state;
@@ -80,7 +79,7 @@ std::optional<AxisValues> target_of(BlockRun& run) {
   for (const Axis axis : all_axes)
     if (const auto value = run.axis(axis))
       program[axis] = state.incremental ? program[axis] + *value : *value;
-  if (polar && !apply_polar(run, program)) return std::nullopt;
+  if (polar && !apply_polar(run, program[Axis::x], program[Axis::y])) return std::nullopt;
   AxisValues tip = to_tip(state, program);
   // What no word named stays exactly where it is.
   const bool turned = run.has('X') || run.has('Y') || polar;
