@@ -29,6 +29,7 @@ class Generator {
         &Generator::compensated, &Generator::home,         &Generator::lathe,
         &Generator::spline,      &Generator::hostile,      &Generator::stack};
     rotates_ = one_in(2);
+    changes_unit_ = one_in(2);
     add("F" + std::to_string(50 + below(200)) + " S300 M3");
     if (below(4) == 0) add("G10 L2 P1 " + offset_words() + rotation());
     if (below(4) == 0) change_tool(1 + below(2));
@@ -136,11 +137,13 @@ class Generator {
   std::string rotation() {
     return rotates_ && one_in(2) ? " R" + pick({"30", "90", "-45", "0", "12.5"}) : "";
   }
-  /// The stand-in of the reference for a tool changer loses rotation and length offset of the
-  /// current position (docs/peer.md), so a program has tool changes or rotation.
+  /// The stand-in of the reference for a tool changer takes the point of the last move for the
+  /// current one and forgets rotation and length offset (docs/peer.md), so a program has tool
+  /// changes or rotation, and a move before the change.
   void change_tool(int number) {
     if (rotates_) return add("T" + std::to_string(number));
     add("G49");
+    add("G0 Z5");
     add("T" + std::to_string(number) + " M6");
     add("M3");
     has_tool_ = true;
@@ -155,7 +158,9 @@ class Generator {
     if (one_in(12)) line = "G53 " + line;
     if (one_in(8)) line += " F" + std::to_string(10 + below(300));
     if (one_in(15)) line += " (a comment)";
-    if (one_in(20)) line += " G" + pick({"90", "91", "20", "21", "17"});
+    if (one_in(20))
+      line +=
+          " G" + (changes_unit_ ? pick({"90", "91", "20", "21", "17"}) : pick({"90", "91", "17"}));
     if (one_in(12)) line += " M" + pick({"3", "4", "7", "8", "9"});
     add(line);
   }
@@ -214,7 +219,7 @@ class Generator {
         add("G1" + std::to_string(7 + plane_));
         break;
       case 1:
-        add(pick({"G20", "G21", "G21"}));
+        add(changes_unit_ ? pick({"G20", "G21", "G21"}) : "G21");
         break;
       case 2:
         add("G91");
@@ -290,8 +295,8 @@ class Generator {
       case 0:
         add("G43 H" + std::to_string(1 + below(4)));
         break;
-      case 1:
-        add("G43.1" + offset_words());
+      case 1:  // the reference forgets to convert an offset that G43.1 and G43.2 add to
+        add(changes_unit_ ? "G43 H2" : "G43.1" + offset_words());
         break;
       case 2:
         add("G49");
@@ -310,7 +315,7 @@ class Generator {
         add("(DEBUG,#5400 #5401 #5402 #5403 #5410 #5413)");
         break;
       case 7:
-        add("G43.2 H" + std::to_string(1 + below(3)));
+        add((changes_unit_ ? "G43 H" : "G43.2 H") + std::to_string(1 + below(3)));
         break;
       case 8:
         add("G43 H2");
@@ -598,7 +603,9 @@ class Generator {
 
   void stack() {
     add(pick({"M70", "M73"}));
-    add(pick({"G20", "G91", "G55", "F33", "G98", "G90.1", "G61", "S50", "M5", "G7"}));
+    add(changes_unit_ && one_in(5)
+            ? "G20"
+            : pick({"G91", "G55", "F33", "G98", "G90.1", "G61", "S50", "M5", "G7"}));
     if (!one_in(3)) add("M72");
     add("G90 G54 G21 G8 G91.1 G94 F100");
     add("M3 S100");
@@ -686,6 +693,7 @@ class Generator {
   int line_ = 0;
   int labels_ = 0;
   bool rotates_ = false;
+  bool changes_unit_ = false;
   bool has_tool_ = false;
   bool has_break_ = false, has_do_ = false;
   int plane_ = 0;  // 0 XY, 1 ZX, 2 YZ

@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "peer/generator.h"
@@ -148,6 +149,18 @@ TEST_F(Peer, AgreesOnProgramsMadeByChance) {
   EXPECT_LT(with_errors, count * 2 / 3 + 1);
 }
 
+/// Examples that meet an accepted deviation (docs/peer.md).
+std::string deviation_of(const std::string& example) {
+  static const std::map<std::string, std::string> deviations = {
+      {"mmount.ngc", "M6 with G43 in force"},
+      {"skeleton.ngc", "M6 with G43 in force"},
+      {"offsets.ngc", "M61"},
+      {"smartprobe.ngc", "probing"},
+  };
+  const auto found = deviations.find(example);
+  return found == deviations.end() ? std::string() : found->second;
+}
+
 TEST_F(Peer, AgreesOnTheExamplesOfLinuxCnc) {
   const fs::path folder = "/usr/share/linuxcnc/ncfiles";
   if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there";
@@ -161,6 +174,7 @@ TEST_F(Peer, AgreesOnTheExamplesOfLinuxCnc) {
     std::ifstream in(path, std::ios::binary);
     const ProgramFile program =
         plain(path.filename().string(), std::string(std::istreambuf_iterator<char>(in), {}));
+    if (!deviation_of(program.name).empty()) continue;
     ++compared;
     if (const auto what = compare(program)) ADD_FAILURE() << program.name << " differs: " << *what;
   }
