@@ -45,9 +45,12 @@ bool same_commands(const std::vector<std::string>& a, const std::vector<std::str
 int compare(const ProgramFile& program) {
   EXPECT_EQ(program.bad_syntax, "") << program.name;
   const Outcome outcome = run_program(program, true, folder + "/subs");
-  const bool too_deep = std::any_of(outcome.found.begin(), outcome.found.end(),
-                                    [](const auto& f) { return f.kind == "call_depth"; });
-  EXPECT_EQ(outcome.stopped_by_limit, too_deep) << program.name;
+  const auto is_limit = [](const auto& found) {
+    return found.kind == "call_depth" || found.kind == "loop_limit";
+  };
+  EXPECT_EQ(outcome.stopped_by_limit,
+            std::any_of(outcome.found.begin(), outcome.found.end(), is_limit))
+      << program.name;
   std::map<std::uint32_t, Expectation> got = by_line(outcome);
   std::set<std::uint32_t> numbers;
   for (const auto& [number, line] : program.lines) numbers.insert(number);
@@ -96,8 +99,30 @@ TEST(Programs, GiveWhatTheirCommentsSay) {
   EXPECT_GT(said, 0);
 }
 
+/// Kinds of what no program with comments can show: texts that are none.
+std::set<std::string> kinds_of_broken_texts() {
+  std::set<std::string> kinds;
+  const std::string texts[] = {"",
+                               std::string("\xff\xfeG\0"
+                                           "0\0",
+                                           6),
+                               "\xef\xbb\xbfM2\n", std::string("\0\0\0\0\1\2", 6)};
+  for (const std::string& text : texts) {
+    ProgramFile program = read_program_file("broken", text, "T1 P1\n");
+    const Outcome outcome = run_program(program, true, folder + "/subs");
+    EXPECT_FALSE(outcome.found.empty());
+    for (const Outcome::Found& found : outcome.found) kinds.insert(found.kind);
+  }
+  SourceMap sources;
+  Diagnostics diagnostics;
+  interp::read_var(sources.add("a.var", "5221 1\n5161 2\n"), diagnostics);
+  EXPECT_EQ(diagnostics.errors(), 1u);
+  for (const Diagnostic& d : diagnostics.list()) kinds.insert(d.kind);
+  return kinds;
+}
+
 TEST(Programs, ProvokeEveryKindOfError) {
-  std::set<std::string> provoked;
+  std::set<std::string> provoked = kinds_of_broken_texts();
   for (const ProgramFile& program : read_program_folder(folder)) {
     for (const auto& [number, line] : program.lines) {
       provoked.insert(line.errors.begin(), line.errors.end());

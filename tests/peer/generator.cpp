@@ -291,13 +291,18 @@ class Generator {
   }
 
   void tool_offset() {
+    // The reference does not convert the length offset in force at G20 and G21.
+    if (changes_unit_) return offset();
     switch (below(10)) {
       case 0:
         add("G43 H" + std::to_string(1 + below(4)));
         break;
-      case 1:  // the reference forgets to convert an offset that G43.1 and G43.2 add to
-        add(changes_unit_ ? "G43 H2" : "G43.1" + offset_words());
+      case 1: {
+        // Of an offset of A it knows nothing in G28 and G30.
+        const std::string words = offset_words();
+        add("G43.1" + words.substr(0, words.find(" A")));
         break;
+      }
       case 2:
         add("G49");
         break;
@@ -315,7 +320,7 @@ class Generator {
         add("(DEBUG,#5400 #5401 #5402 #5403 #5410 #5413)");
         break;
       case 7:
-        add((changes_unit_ ? "G43 H" : "G43.2 H") + std::to_string(1 + below(3)));
+        add("G43.2 H" + std::to_string(1 + below(3)));
         break;
       case 8:
         add("G43 H2");
