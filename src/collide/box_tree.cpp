@@ -6,9 +6,10 @@
 // rotation matrix, and the gap of the two boxes is the larger of the gaps seen in A's axes and in
 // B's axes.
 //
-// Inside: a ray from the point crosses the closed shells an odd number of times. A ray that passes
-// too close to an edge, a corner or along a face is not trusted; the next direction is tried, and
-// when all are used up, the solid angles of the triangles are summed instead.
+// Inside: a ray from the point leaves the closed shells more often than it enters them. Counting
+// with signs lets shells overlap (screws in a plate) and cavities be empty. A ray that passes too
+// close to an edge, a corner or along a face is not trusted; the next direction is tried, and when
+// all are used up, the solid angles of the triangles are summed instead.
 #include "collide/box_tree.h"
 
 #include <algorithm>
@@ -41,7 +42,7 @@ bool ray_meets(const CentredBox& box, const Vec3& origin, const Vec3& inverse) {
   return low <= high;
 }
 
-enum class RayHit { misses, meets, unclear };
+enum class RayHit { misses, leaves, enters, unclear };
 
 /// Ray against triangle; `t` is the distance in units of `direction`.
 RayHit ray_triangle(const Vec3& origin, const Vec3& direction, const Triangle& triangle,
@@ -62,7 +63,7 @@ RayHit ray_triangle(const Vec3& origin, const Vec3& direction, const Triangle& t
   t = n.dot(w) / facing;
   if (a < -margin || b < -margin || a + b > 1 + margin) return RayHit::misses;
   if (a < margin || b < margin || a + b > 1 - margin) return RayHit::unclear;
-  return RayHit::meets;
+  return facing > 0 ? RayHit::enters : RayHit::leaves;
 }
 
 }  // namespace
@@ -136,7 +137,7 @@ std::optional<int> BoxTree::crossings(const Vec3& origin, const Vec3& direction)
       if (solid_[i] == 0) continue;
       const RayHit hit = ray_triangle(origin, direction, triangles_[i], t);
       if (hit == RayHit::unclear) return std::nullopt;
-      if (hit == RayHit::meets && t > 0) ++count;
+      if (hit != RayHit::misses && t > 0) count += hit == RayHit::leaves ? 1 : -1;
     }
   }
   return count;
@@ -164,7 +165,7 @@ bool BoxTree::inside(const Vec3& p) const {
       Vec3(0.8622, -0.4336, 0.2618), Vec3(-0.3426, -0.6578, 0.6707),
       Vec3(0.1397, 0.5349, -0.8333), Vec3(-0.7254, 0.6299, -0.2774)};
   for (const Vec3& direction : directions)
-    if (const auto count = crossings(p, direction)) return *count % 2 != 0;
+    if (const auto count = crossings(p, direction)) return *count != 0;
   return std::abs(winding(p)) > 0.5;
 }
 

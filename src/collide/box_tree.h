@@ -49,7 +49,8 @@ class BoxTree {
   void for_near(const Vec3& p, double reach, Visit&& visit) const;
   std::uint32_t build(const std::vector<Triangle>& source, std::vector<std::uint32_t>& order,
                       std::uint32_t begin, std::uint32_t end);
-  /// Number of solid triangles that the ray crosses; nothing when it runs too close to an edge.
+  /// How often the ray leaves closed shells less how often it enters them; nothing when it runs too
+  /// close to an edge.
   std::optional<int> crossings(const Vec3& origin, const Vec3& direction) const;
   double winding(const Vec3& p) const;
 

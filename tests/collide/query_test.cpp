@@ -47,6 +47,15 @@ TEST(Distance, OfABodyInACavityIsItsGap) {
   EXPECT_FALSE(overlap(outer, origin, inner, origin));
 }
 
+TEST(Distance, SeesABodyWhereShellsOfTheOtherOverlap) {
+  TriangleMesh cross = make_box({-10, -3, -3}, {10, 3, 3});
+  append(cross, make_box({-3.5, -10, -3.5}, {3.5, 10, 3.5}));
+  const CollisionMesh outer(cross), inner(cube(1));
+  EXPECT_TRUE(overlap(outer, origin, inner, origin));
+  EXPECT_TRUE(overlap(outer, origin, inner, translation({8, 0, 0})));
+  EXPECT_FALSE(overlap(outer, origin, inner, translation({8, 8, 0})));
+}
+
 TEST(Distance, DoesNotCountTheInsideOfAnOpenMesh) {
   TriangleMesh open = cube(10);
   open.triangles.pop_back();
