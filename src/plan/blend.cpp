@@ -7,12 +7,12 @@
 //                    | P4              P1 = P0 + (1 − b1) L T
 //                    | P5              P2 = P1 + (b1 − b2) L T + h² κN / 20,  h = 5 (1 − b1) L
 //
-// b1 and b2 by the turn angle θ give about the smallest third derivative for a tolerance, and a
-// nearly constant speed along u: a shape with up to 15 % less curvature exists, but its parameter
-// speed changes threefold within a blend, which the speed planner would have to pay for with many
-// nodes. Between lines the middle point lies (1 + 5 b1 + 10 b2) / 32 · |w − u| · L from the corner
-// (u, w unit tangents), which gives L from the tolerance in closed form; at arcs L is bisected
-// until the largest distance from the original sides is within it.
+// b1 and b2 by the turn angle θ give about the smallest third derivative for a tolerance. (A shape
+// with 10-15 % less curvature exists, b1 = 0.85, b2 = 0.27 at 30°, but its speed along u changes so
+// much that it can't be run at a steady speed as smoothly as this one.) Between lines the middle
+// point lies (1 + 5 b1 + 10 b2) / 32 · |w − u| · L from the corner (u, w unit tangents), which
+// gives L from the tolerance in closed form; at arcs L is bisected until the largest distance from
+// the original sides is within it.
 //
 // No rounder than needed: acceleration on the blend goes with 1 / L at the same speed, so L shrinks
 // to the size at which the wanted speed just is possible.
@@ -57,34 +57,24 @@ Shape shape_for(double theta) {
   return {rows.back().b1, rows.back().b2};
 }
 
-// Length of the tip's way along XYZ: Gauss's rule with four points on each half.
-double way_of(const Blend& blend) {
-  constexpr std::array<double, 4> x = {0.0694318442029737, 0.3300094782075719, 0.6699905217924281,
-                                       0.9305681557970263};
-  constexpr std::array<double, 4> w = {0.1739274225687269, 0.3260725774312731, 0.3260725774312731,
-                                       0.1739274225687269};
-  double sum = 0;
-  for (const double half : {0.0, 0.5})
-    for (std::size_t i = 0; i < 4; ++i)
-      sum += w[i] / 2 * metric_length(Metric::xyz, evaluate(blend, half + x[i] / 2).d);
-  return sum;
-}
-
-Blend bezier(const CornerShape& corner, const Shape& shape, double cut) {
+std::array<AxisValues, 6> control_points(const CornerShape& corner, const Shape& shape,
+                                         double cut) {
   const PathPoint a = evaluate(corner.left, length(corner.left) - cut);
   const PathPoint b = evaluate(corner.right, cut);
   const double first = (1 - shape.b1) * cut, second = (shape.b1 - shape.b2) * cut;
   const double bend = 25 * first * first / 20;  // h² / 20
-  Blend out;
-  out.control[0] = a.p;
-  out.control[1] = a.p + first * a.d;
-  out.control[2] = out.control[1] + second * a.d + bend * a.dd;
-  out.control[5] = b.p;
-  out.control[4] = b.p - first * b.d;
-  out.control[3] = out.control[4] - second * b.d + bend * b.dd;
-  out.length = 1;  // so that way_of() integrates over u
-  out.length = way_of(out);
+  std::array<AxisValues, 6> out;
+  out[0] = a.p;
+  out[1] = a.p + first * a.d;
+  out[2] = out[1] + second * a.d + bend * a.dd;
+  out[5] = b.p;
+  out[4] = b.p - first * b.d;
+  out[3] = out[4] - second * b.d + bend * b.dd;
   return out;
+}
+
+Blend bezier(const CornerShape& corner, const Shape& shape, double cut) {
+  return make_curve(control_points(corner, shape, cut));
 }
 
 // s of a point of the path near `p`, within [low, high]; for lines and arcs the nearest one but for
@@ -196,7 +186,9 @@ std::optional<CornerBlend> make_blend(const CornerShape& corner, const Demand& d
   double need = demand(blend);
   for (int round = 0; round < 3 && need < 0.93; ++round) {
     const double smaller = std::max(cut * need * 1.03, smallest_cut);
-    const Blend rounded = bezier(corner, shape, smaller);
+    const Blend rounded =
+        lines ? scaled_curve(blend, control_points(corner, shape, smaller), smaller / cut)
+              : bezier(corner, shape, smaller);
     need = demand(rounded);
     if (!(need <= 1)) break;
     if (!lines && deviation(corner, rounded, smaller) > 1) break;

@@ -124,7 +124,10 @@ Path sub_path(const Path& path, double s0, double s1) {
             return out;
           },
           [&](const Blend& blend) -> Path {
-            return sub_blend(blend, s0 / blend.length, s1 / blend.length);
+            Blend out = blend;
+            out.begin = blend.begin + s0;
+            out.length = s1 - s0;
+            return out;
           }},
       path);
 }

@@ -24,8 +24,10 @@ Expected<Arc> make_arc(const AxisValues& start, const canon::ArcFeed& command);
 
 /// Point of the arc's axis at the height of its start.
 Vec3 foot_of(const Arc& arc);
-/// The part of a blend between two parameters in [0, 1].
-Blend sub_blend(const Blend& blend, double u0, double u1);
+/// A whole blend from its control points, with its parameter fitted to the length of the way.
+Blend make_curve(const std::array<AxisValues, 6>& control);
+/// The same curve after a change of size: `control` must be that of `like` moved and scaled.
+Blend scaled_curve(const Blend& like, const std::array<AxisValues, 6>& control, double scale);
 /// The part of a path between two values of s; its own s starts at 0 again.
 Path sub_path(const Path& path, double s0, double s1);
 /// Metric of a path (none for a hold).

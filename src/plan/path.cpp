@@ -8,9 +8,10 @@
 //         with ρ linear from start_radius to end_radius; the other six axes are linear in s. The
 //         start and end points of the piece are taken as they are programmed: `start` gives the
 //         height along the normal, so centre may be any point of the axis.
-// Blend   quintic Bezier in nine axes with parameter u = s / length; sub-ranges by de Casteljau,
-// boxes from the control points (a Bezier lies in their hull, and its way is
-//         no longer than the control polygon, axis by axis).
+// Blend   quintic Bezier in nine axes over u, with u a polynomial of s (curve.cpp); derivatives by
+// the
+//         chain rule; boxes from the control points of the part (a Bezier lies in their hull, and
+//         its way is no longer than the control polygon, axis by axis).
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -91,8 +92,30 @@ Weights weights_at(double u) {
   return out;
 }
 
+// u and its derivatives by s.
+struct Parameter {
+  double u, d, dd, ddd;
+};
+
+Parameter parameter_at(const Blend& blend, double s) {
+  const double y = 2 * std::clamp((blend.begin + s) / blend.whole, 0.0, 1.0) - 1;
+  Parameter out{0, 0, 0, 0};
+  for (std::size_t i = blend.u_of_y.size(); i-- > 0;) {  // Horner, with the derivatives
+    out.ddd = out.ddd * y + 3 * out.dd;
+    out.dd = out.dd * y + 2 * out.d;
+    out.d = out.d * y + out.u;
+    out.u = out.u * y + blend.u_of_y[i];
+  }
+  const double scale = 2 / blend.whole;
+  out.d *= scale;
+  out.dd *= scale * scale;
+  out.ddd *= scale * scale * scale;
+  return out;
+}
+
 PathPoint evaluate_blend(const Blend& blend, double s) {
-  const Weights w = weights_at(std::clamp(s / blend.length, 0.0, 1.0));
+  const Parameter u = parameter_at(blend, s);
+  const Weights w = weights_at(std::clamp(u.u, 0.0, 1.0));
   PathPoint out;
   // Relative to the first point: small blends far from zero keep their digits. The sums over the
   // nine axes are the inner loops, so that they run side by side.
@@ -105,12 +128,33 @@ PathPoint evaluate_blend(const Blend& blend, double s) {
       out.ddd.value[k] += w.of[3][i] * p.value[k];
     }
   }
-  const double scale = 1 / blend.length;
+  // Chain rule, from derivatives by u to those by s.
   for (std::size_t k = 0; k < 9; ++k) {
+    const double b1 = out.d.value[k], b2 = out.dd.value[k], b3 = out.ddd.value[k];
     out.p.value[k] += blend.control[0].value[k];
-    out.d.value[k] *= scale;
-    out.dd.value[k] *= scale * scale;
-    out.ddd.value[k] *= scale * scale * scale;
+    out.d.value[k] = b1 * u.d;
+    out.dd.value[k] = b2 * u.d * u.d + b1 * u.dd;
+    out.ddd.value[k] = b3 * u.d * u.d * u.d + 3 * b2 * u.d * u.dd + b1 * u.ddd;
+  }
+  return out;
+}
+
+// Control points of the part of the curve between two values of u.
+std::array<AxisValues, 6> control_between(const Blend& blend, double u0, double u1) {
+  // Cut at u1 and keep the left part, then cut that at u0 / u1 and keep the right part.
+  const double cut = u1 > 0 ? std::clamp(u0 / u1, 0.0, 1.0) : 0;
+  std::array<AxisValues, 6> out;
+  for (const Axis axis : all_axes) {
+    std::array<double, 6> c{}, left{};
+    for (std::size_t i = 0; i < 6; ++i) c[i] = blend.control[i][axis];
+    for (std::size_t n = 6; n > 0; --n) {
+      left[6 - n] = c[0];
+      for (std::size_t i = 0; i + 1 < n; ++i) c[i] += u1 * (c[i + 1] - c[i]);
+    }
+    for (std::size_t n = 6; n > 0; --n) {
+      out[n - 1][axis] = left[n - 1];
+      for (std::size_t i = 0; i + 1 < n; ++i) left[i] += cut * (left[i + 1] - left[i]);
+    }
   }
   return out;
 }
@@ -179,16 +223,18 @@ machine::TipInterval bounds_arc(const Arc& arc, double s0, double s1) {
 }
 
 machine::TipInterval bounds_blend(const Blend& blend, double s0, double s1) {
-  const Blend part = sub_blend(blend, s0 / blend.length, s1 / blend.length);
+  const double u0 = std::clamp(parameter_at(blend, s0).u, 0.0, 1.0);
+  const double u1 = std::clamp(parameter_at(blend, s1).u, u0, 1.0);
+  const std::array<AxisValues, 6> part = control_between(blend, u0, u1);
   machine::TipInterval out;
   for (const Axis axis : all_axes) {
-    double low = part.control[0][axis], high = low, travel = 0, size = 0;
+    double low = part[0][axis], high = low, travel = 0, size = 0;
     for (const AxisValues& p : blend.control) size = std::max(size, std::abs(p[axis]));
     for (std::size_t i = 1; i < 6; ++i) {
-      const double value = part.control[i][axis];
+      const double value = part[i][axis];
       low = std::min(low, value);
       high = std::max(high, value);
-      travel += std::abs(value - part.control[i - 1][axis]);
+      travel += std::abs(value - part[i - 1][axis]);
     }
     const double slack = high > low ? 1e-14 * size : 0;
     out.low[axis] = low - slack;
@@ -203,26 +249,6 @@ machine::TipInterval bounds_blend(const Blend& blend, double s0, double s1) {
 Vec3 foot_of(const Arc& arc) {
   const Vec3 start(arc.start[Axis::x], arc.start[Axis::y], arc.start[Axis::z]);
   return arc.centre + (start - arc.centre).dot(arc.normal) * arc.normal;
-}
-
-Blend sub_blend(const Blend& blend, double u0, double u1) {
-  // Cut at u1 and keep the left part, then cut that at u0 / u1 and keep the right part.
-  const double cut = u1 > 0 ? std::clamp(u0 / u1, 0.0, 1.0) : 0;
-  Blend out;
-  out.length = blend.length * (u1 - u0);
-  for (const Axis axis : all_axes) {
-    std::array<double, 6> c{}, left{};
-    for (std::size_t i = 0; i < 6; ++i) c[i] = blend.control[i][axis];
-    for (std::size_t n = 6; n > 0; --n) {
-      left[6 - n] = c[0];
-      for (std::size_t i = 0; i + 1 < n; ++i) c[i] += u1 * (c[i + 1] - c[i]);
-    }
-    for (std::size_t n = 6; n > 0; --n) {
-      out.control[n - 1][axis] = left[n - 1];
-      for (std::size_t i = 0; i + 1 < n; ++i) left[i] += cut * (left[i + 1] - left[i]);
-    }
-  }
-  return out;
 }
 
 double length(const Path& path) {

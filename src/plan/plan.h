@@ -39,9 +39,14 @@ struct Arc {
   double length = 0;
 };
 
-/// A corner's blend: quintic Bezier in nine axes, parameter u = s / length.
+/// A corner's blend, or a part of one: quintic Bezier in nine axes over u in [0, 1]. s is the
+/// length of the way: u is a polynomial of y = 2 (begin + s) / whole − 1 (coefficients by rising
+/// power).
 struct Blend {
   std::array<AxisValues, 6> control;
+  std::array<double, 14> u_of_y{};
+  double whole = 0;  ///< length of the whole curve
+  double begin = 0;  ///< length of the whole curve before this part
   double length = 0;
 };
 

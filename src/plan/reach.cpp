@@ -27,11 +27,27 @@ class Search {
 
   std::optional<ReachLimit> run() {
     if (const auto reason = look(0)) return ReachLimit{0, 0, *reason};
-    const double end = length(path_);
-    return split(0, end);
+    auto limit = split(0, length(path_));
+    if (limit) limit->reason = reason_beyond(*limit);
+    return limit;
   }
 
  private:
+  // At the border the reason would speak of micrometres; in the middle of the stretch that can't be
+  // reached it says how much is missing.
+  std::string reason_beyond(const ReachLimit& limit) {
+    constexpr int places = 64;
+    const double end = length(path_);
+    std::vector<std::string> reasons = {limit.reason};
+    for (int i = 1; i <= places; ++i) {
+      const auto reason = look(limit.bad + (end - limit.bad) * i / places);
+      if (!reason) break;
+      reasons.push_back(*reason);
+    }
+    const bool comes_back = reasons.size() <= places;
+    return reasons[comes_back ? reasons.size() / 2 : reasons.size() - 1];
+  }
+
   // Why s can't be reached; nothing when it can.
   std::optional<std::string> look(double s) {
     auto q = kinematics_.inverse(Target{evaluate(path_, s).p, tool_offset_}, near_);

@@ -8,9 +8,9 @@
 namespace aircut::plan {
 
 struct ReachLimit {
-  double good = 0;  ///< last s that is known to be good
-  double bad = 0;   ///< s that can't be reached, at most 1e-6 of the piece later
-  std::string reason;
+  double good = 0;     ///< last s that is known to be good
+  double bad = 0;      ///< s that can't be reached, at most 1e-6 of the piece later
+  std::string reason;  ///< what is missing in the middle of the stretch that can't be reached
 };
 
 /// The first place of the piece that can't be reached. `near`: joints at its start. `scratch` has

@@ -160,8 +160,10 @@ void Shaper::finish_pending() {
 // The pending move without its end, then the blend: its first half belongs to the left block, its
 // second half to the right one.
 void Shaper::add_blend(const Move& left, const Move& right, const CornerBlend& corner) {
-  const Blend first = sub_blend(corner.blend, 0, 0.5), second = sub_blend(corner.blend, 0.5, 1);
-  const auto half = [](const Move& move, const Blend& blend, bool last_part) {
+  const double middle = corner.blend.length / 2;
+  const Path first = sub_path(corner.blend, 0, middle);
+  const Path second = sub_path(corner.blend, middle, corner.blend.length);
+  const auto half = [](const Move& move, const Path& blend, bool last_part) {
     Segment out = move.segment;
     if (!move.parts.empty())
       out.command = last_part ? move.parts.back().command : move.parts.front().command;

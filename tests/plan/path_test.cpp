@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "plan/geometry.h"
+#include "plan/blend.h"
 #include "support/plan_machines.h"
 
 namespace aircut::plan {
@@ -45,10 +45,9 @@ Arc random_arc(std::mt19937& random) {
 Path random_path(std::mt19937& random, int kind) {
   if (kind == 0) return make_line(random_point(random, 50), random_point(random, 50));
   if (kind == 1) return random_arc(random);
-  Blend blend;
-  for (AxisValues& p : blend.control) p = random_point(random, 5);
-  blend.length = 10;
-  return blend;
+  std::array<AxisValues, 6> control;
+  for (AxisValues& p : control) p = random_point(random, 5);
+  return make_curve(control);
 }
 
 class EveryPath : public testing::TestWithParam<int> {};
@@ -127,6 +126,23 @@ std::string path_name(const testing::TestParamInfo<int>& info) {
   return std::array{"Line", "Arc", "Blend"}[static_cast<std::size_t>(info.param)];
 }
 INSTANTIATE_TEST_SUITE_P(Path, EveryPath, testing::Values(0, 1, 2), path_name);
+
+TEST(Blend, RunsAlmostAtUnitSpeed) {
+  for (const double turn : {0.001, 0.5, 1.5, 2.5, 3.0}) {
+    const Line left = make_line(xyz(-10, 0, 0), xyz(0, 0, 0));
+    const Line right = make_line(xyz(0, 0, 0), xyz(10 * std::cos(turn), 10 * std::sin(turn), 0));
+    const Path in = left, out = right;
+    const auto made = make_blend({in, out, 5, 5, 0.02}, [](const Blend&) { return 1.0; });
+    ASSERT_TRUE(made);
+    double worst = 0;
+    for (int k = 0; k <= 200; ++k) {
+      const PathPoint p = evaluate(made->blend, made->blend.length * k / 200);
+      const double speed = metric_length(Metric::xyz, p.d);
+      worst = std::max(worst, std::abs(speed - 1));
+    }
+    EXPECT_LT(worst, turn < 2.6 ? 1e-3 : 1e-2) << turn;
+  }
+}
 
 TEST(Arc, TurnsCounterClockwiseForPositiveTurns) {
   canon::ArcFeed command{xyz(0, 10, 0), Vec3::Zero(), Vec3::UnitZ(), 1, canon::Plane::xy};

@@ -79,7 +79,6 @@ TEST_P(Others, AreNoSlowerThanItInTotal) {
   const Peer peer = plan_peer(GetParam());
   RecordProperty("seconds", std::to_string(peer.planned.time()));
   EXPECT_LE(peer.planned.time(), peer.seconds() * 1.01);
-  std::printf("%s: %.3f s, peer %.3f s\n", GetParam(), peer.planned.time(), peer.seconds());
 }
 
 INSTANTIATE_TEST_SUITE_P(Peer, Others,
