@@ -3,8 +3,6 @@
 //   position     the block is tried again from where the failed one would have led; when it is fine
 //                from there, its error is an echo
 //   feed, spindle, motion code, named parameters: the failed block would have set them
-#include <algorithm>
-
 #include "interp/codes/codes.h"
 #include "interp/impl.h"
 
@@ -13,10 +11,6 @@ namespace {
 
 bool sets_motion(const Word& word) {
   return word.rule && word.rule->group == ModalGroup::motion && word.rule->code != 800;
-}
-
-bool gives_motion(const Block& block) {
-  return std::any_of(block.words.begin(), block.words.end(), sets_motion);
 }
 
 bool turns_spindle(const Word& word) {
@@ -31,7 +25,7 @@ bool Interpreter::Impl::is_cascade(const Fault& fault) const {
   if (kind == "zero_feed") return unsure_.feed;
   if (kind == "spindle_stopped") return unsure_.spindle;
   if (kind == "axis_word_unused") return unsure_.motion && state_.motion == 800;
-  if (kind == "word_unused") return unsure_.motion && !gives_motion(*block_);
+  if (kind == "word_unused") return unsure_.motion && !block_->has_rules;
   if (kind == "parameter_undefined") {
     for (const std::string& name : unsure_.names)
       if (fault.message.find("#<" + name + ">") != std::string::npos) return true;

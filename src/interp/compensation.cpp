@@ -283,14 +283,23 @@ bool Compensator::join(BlockRun& run, Path& next, Point corner, bool is_rapid) {
 
 // Both elements end where they cross; of two crossings the one nearer to the corner counts.
 bool Compensator::meet_inside(BlockRun& run, Path& next, Point corner) {
-  const std::vector<Point> crossings = intersections(*last_, next);
   const auto misfit = [&](const std::string& why) {
     run.error("comp_gouge", run.whole(),
               "the tool with radius " + mm(run.state.comp.radius) +
                   " does not fit into this inside corner: " + why);
     return false;
   };
+  std::vector<Point> crossings = intersections(*last_, next);
   if (crossings.empty()) return misfit("the compensated moves do not meet");
+  // A crossing behind the end of the old element would lengthen it.
+  const auto shortens = [&](Point p) {
+    if (!last_->is_arc) return dot(p - last_->end, last_->direction) <= same_point;
+    Path cut = *last_;
+    cut.end = p;
+    return still_forward(cut);
+  };
+  if (std::any_of(crossings.begin(), crossings.end(), shortens))
+    std::erase_if(crossings, [&](Point p) { return !shortens(p); });
   const Point at = *std::min_element(crossings.begin(), crossings.end(), [&](Point p, Point q) {
     return norm(p - corner) < norm(q - corner);
   });

@@ -1,8 +1,190 @@
+// The kinds of messages of the interpreter with their long text. Each has a program that provokes
+// it: tests/interp/errors/KIND.ngc.
 #include "interp/interp.h"
 
 namespace aircut::interp {
+
 const std::vector<KindText>& error_kinds() {
-  static const std::vector<KindText> kinds = {};
+  static const std::vector<KindText> kinds = {
+      {"alarm", "the program stopped itself",
+       "The program asked for its own end with (ABORT, text), usually because a check in it "
+       "failed. Example: `(ABORT, no stock)`. Read the text and what led to the line."},
+      {"arc_error", "an arc whose geometry does not work",
+       "The end must lie on the circle that centre (I J K) or radius (R) give, in the plane in "
+       "force. Example: `G2 X10 Y0 I4` from X0 ends 2 mm off the circle; right is `I5`. Check the "
+       "plane (G17 G18 G19), G90.1, and the point where the arc begins."},
+      {"axis_conflict", "two codes want the axis words of one line",
+       "G10, G28, G30, G52 and G92 use the axis words themselves, so no motion code can stand with "
+       "them. Example: `G1 G92 X0`. Use two lines."},
+      {"axis_unknown", "a word of an axis that the machine lacks",
+       "Only the axes of the machine can be programmed. Example: `G0 V5` on a machine with X Y Z."},
+      {"axis_word_missing", "a code without its axis words",
+       "Codes such as G92, G81 or G38.2 need at least one axis word. Example: `G92`; right is `G92 "
+       "X0`."},
+      {"axis_word_unused", "axis words without a code that moves",
+       "At the start and after G80 no motion is in force. Example: `X10` as the first line; right "
+       "is `G0 X10`."},
+      {"bad_character", "a character that can't stand there",
+       "Lines are made of words (a letter and a number), settings (#1=2) and comments. Example: "
+       "`G0 X1 ?`."},
+      {"bad_comment", "a comment that is nested or not closed",
+       "Comments stand in ( ) on one line and can't be nested; `;` begins one that runs to the "
+       "end. Example: `(a (b) c)`."},
+      {"bad_expression", "an expression that can't be read",
+       "Brackets must match, operators stand between values. Example: `X[1+]`, `X[1`."},
+      {"bad_label", "an O-word without a usable label",
+       "A label is a number, a <name> or an [expression] with an integer value. Example: `o1.5 if "
+       "[1]`."},
+      {"bad_number", "a number that can't be read, or none",
+       "A number has digits and at most one point; no comma, no exponent. Example: `X1.2.3`, `X` "
+       "alone."},
+      {"bad_parameter_name", "a parameter name that is empty or not closed",
+       "Names stand between < and >. Example: `#<depth = 3`."},
+      {"call_depth", "calls nested deeper than the control takes",
+       "Nine calls may be open at once. A sub that calls itself must end some time. Example: `o1 "
+       "sub / o1 call / o1 endsub`."},
+      {"comp_arc", "the tool does not fit inside an arc",
+       "With G41/G42 an arc on whose inside the tool runs needs a larger radius than the tool's. "
+       "Example: a pocket corner of radius 2 with a 6 mm cutter. Use a smaller tool."},
+      {"comp_entry", "radius compensation can't begin with this move",
+       "The first move after G41/G42 must be longer than the tool's radius (a line), or have a "
+       "larger radius (an arc). Example: `G41.1 D10` and then `G1 X3`."},
+      {"comp_exit_short", "a short move ends radius compensation",
+       "Warning. The move after G40 is shorter than the tool's diameter, so the tool may cut into "
+       "the contour. Leave with a longer move."},
+      {"comp_gouge", "the tool does not fit into an inside corner",
+       "The offset moves do not meet, or a move is too short between its corners. Use a smaller "
+       "tool or a longer move."},
+      {"comp_illegal", "not allowed while radius compensation is on",
+       "Planes, offsets, cycles, probing, tool changes and others must wait for G40. Example: `G41 "
+       "D1` and then `G55`."},
+      {"cycle_error", "a canned cycle that can't be carried out",
+       "R must lie above the bottom, rotary axes can't move in it, G93 is not possible. Example: "
+       "`G81 X1 R-5 Z-1`."},
+      {"duplicate_word", "a letter twice on a line",
+       "Each letter but G and M may stand once. Example: `G0 X1 X2`."},
+      {"dwell_time", "a dwell of less than no time",
+       "G4 P and P of cycles are seconds, 0 or more. Example: `G4 P-2`."},
+      {"empty_program", "a program without any line",
+       "The text holds nothing but blanks. It needs at least M2."},
+      {"encoding", "a text that the control can't read",
+       "Programs are plain text: no byte order mark, no UTF-16, no binary data. Save the file as "
+       "UTF-8 without a mark."},
+      {"feed_before_unit", "F acts before the change of units on its line",
+       "Warning. F runs before G20 and G21, so it is read in the old unit. Example: `G20 F10 G1 "
+       "X1` in a metric program feeds 10 mm/min. Put G20 on a line before."},
+      {"feed_missing", "no F on a line of inverse time",
+       "With G93 F is the time of one move, so every G1, G2 and G3 line needs its own."},
+      {"flow_nesting", "a sub inside a sub",
+       "Definitions of subs stand one behind the other. Example: `o1 sub / o2 sub`."},
+      {"flow_syntax", "an O-word used in a wrong way",
+       "A condition is missing, something else stands on the line, or return, break, M98 or M99 "
+       "are out of place. Example: `o1 if` without `[…]`."},
+      {"g10_error", "G10 with words that do not belong together",
+       "L2 and L20 set work systems (P0-P9, no I J), L1, L10 and L11 tools. Example: `G10 L2 P12 "
+       "X0`."},
+      {"g53_error", "G53 where it can't be used",
+       "Machine coordinates need G90, G0 or G1, and no radius compensation. Example: `G91 G53 G0 "
+       "Z0`."},
+      {"io_error", "M66 with words that do not fit",
+       "M66 takes P (digital) or E (analog), and Q above 0 when it waits. Example: `M66 P1 E1`."},
+      {"label_missing", "an O-word without its other half",
+       "if needs endif, while endwhile, sub endsub, each with the same label. Example: `o1 while "
+       "[1]` without `o1 endwhile`."},
+      {"label_reused", "a label used for two blocks",
+       "Within a sub or the main program each loop and branch needs a label of its own. Example: "
+       "`o1 if` twice."},
+      {"limit_reached", "a limit of this run",
+       "Too many blocks, files, names or moves. What came before stands. Raise the limit when the "
+       "program is meant to be so large. Example: a G83 with a peck of a nanometre."},
+      {"line_too_long", "a line of more than 252 characters",
+       "The control refuses such lines. Split it; long comments too."},
+      {"loop_limit", "a loop that does not end",
+       "The loop ran to a limit. The message shows its condition's parameters. Example: `o1 while "
+       "[1]`."},
+      {"math_domain", "a function or operator outside its range",
+       "Division by 0, SQRT of a negative number, ACOS of more than 1, results that are not "
+       "finite. Example: `[1/#1]` with #1 = 0."},
+      {"misplaced_word", "N or an O-word that is not the first word",
+       "N stands first, then an O-word. Example: `G0 N10`."},
+      {"modal_clash", "two codes of one group on a line",
+       "Only one of a group can act. Example: `G0 G1 X1`, `M7 M8`. Use two lines."},
+      {"modal_stack", "M72 without anything saved",
+       "M72 restores what M70 saved in the same sub. Example: M72 as the first line."},
+      {"parameter_order", "a parameter file whose numbers do not ascend",
+       "Every line of the file holds a number and a value, the numbers ascending. Sort the file."},
+      {"parameter_range", "a parameter number that does not exist",
+       "Numbers are integers from 1 to 5601. Example: `#0=1`, `#6000`."},
+      {"parameter_read_only", "a parameter that can't be set",
+       "Positions, tool data and predefined names follow from the machine's state. Example: "
+       "`#5420=1`, `#<_x>=1`."},
+      {"parameter_undefined", "a named parameter without a value",
+       "Set a name before it is read; names without a leading _ are known only in their own sub. "
+       "Example: `G0 X#<lenght>`."},
+      {"path_refused", "a sub's name that leaves its folder",
+       "Called files lie in the program's folder or the sub path. Example: `o</etc/x> call`, "
+       "`o<../x> call`."},
+      {"percent_missing", "the closing % is missing",
+       "A program that begins with a line % must end with one. Add it, or remove the first."},
+      {"polar_error", "polar words that can't be used so",
+       "@ and ^ need G17, no X Y on the line, and an angle that is defined. Example: `G18 G0 @10 "
+       "^0`."},
+      {"probe_error", "a probing move that can't be made",
+       "G38 needs G94 and another end than the current point. Example: `G38.2 X0` at X0."},
+      {"program_end_missing", "the program does not end",
+       "Add M2 or M30 as the last line, or put the program between % lines."},
+      {"shared_axis_words", "axis words used for an offset and a move",
+       "Warning. In `G43.1 Z1 G0 X3` both words set the offset and are the end of the move. Use "
+       "two lines."},
+      {"spindle_stopped", "a code that needs a turning spindle",
+       "G33, G76, G74, G84, G86 need it, G74 and G84 in the right direction, and G95 needs a "
+       "speed. Example: `G33 Z-5 K1` without M3."},
+      {"spindle_unknown", "a spindle that the machine lacks",
+       "$ counts from 0; -1 means all. Example: `M3 $4`."},
+      {"spline_error", "a spline with words that do not fit",
+       "G5 needs P Q (and I J or none), G5.1 I J, G5.2 lines weights; X and Y in G17 only. "
+       "Example: `G5 X1 Y1`."},
+      {"sub_missing", "a call of a sub that is nowhere",
+       "It must be in this program or in a file of its name in the program's folder or the sub "
+       "path. Example: `o<drill> call`."},
+      {"sub_reached", "the main program runs into a sub",
+       "A sub that was called before its definition must lie behind the end of the main program. "
+       "Example: no M2 before `o1 sub`."},
+      {"thread_error", "G76 with impossible words",
+       "I is not 0, J above 0, K above J, tapers shorter than the thread. Example: `K` smaller "
+       "than `J`."},
+      {"too_many_m", "more than four M words",
+       "Put the others on a line of their own. Example: `M3 M8 M48 M64 P1 M0`."},
+      {"tool_not_selected", "M6 without a tool selected",
+       "Warning. M6 before any T word empties the spindle. Give T before."},
+      {"tool_unknown", "a tool that is not in the table",
+       "T, H, D and G10 L1 name tools of the tool table. Example: `T77`."},
+      {"unknown_code", "a G or M code that does not exist",
+       "Check the number; codes of other controls may be missing here. Example: `G12`."},
+      {"unknown_function", "a function that does not exist",
+       "Known are ABS ACOS ASIN ATAN COS EXISTS EXP FIX FUP LN ROUND SIN SQRT TAN. Example: "
+       "`sine[30]`."},
+      {"unknown_keyword", "an O-word with an unknown keyword",
+       "Known are sub endsub call return if elseif else endif while endwhile do repeat endrepeat "
+       "break continue. Example: `o1 wile [1]`."},
+      {"unknown_operator", "an operator that does not exist",
+       "Known are ** * / MOD + - EQ NE GT GE LT LE AND OR XOR. Example: `[1 is 2]`."},
+      {"unsupported_code", "a code that is known but not implemented",
+       "The control knows it, this program does not, so the line can't be checked. Example: G87."},
+      {"word_ignored", "a code without the word that makes it act",
+       "Warning. Example: M19 without R does not move the spindle."},
+      {"word_missing", "a word that the code needs",
+       "Example: `G4` without P, `G33 Z-5` without K."},
+      {"word_unused", "a word that no code of the line uses",
+       "Remove it or add the code that it belongs to. Example: `G0 X1 H5`. `X1e3` is the number 1 "
+       "and the word E3."},
+      {"word_value", "a word outside its range",
+       "Example: `G2 … P0` (turns are 1 or more), `S-5`, an H word that is not an integer."},
+      {"zero_feed", "a feed move without a feed",
+       "G1, G2, G3, probing and cycles need F above 0; G93, G94 and G95 forget the one before. "
+       "Example: `G1 X1` as the first line."},
+  };
   return kinds;
 }
+
 }  // namespace aircut::interp

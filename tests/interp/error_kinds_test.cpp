@@ -1,0 +1,70 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "interp/run_program.h"
+
+namespace aircut::test {
+namespace {
+
+const std::string folder = std::string(AIRCUT_SOURCE_DIR) + "/tests/interp/errors/";
+
+std::string read(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+Setting small_limits() {
+  Setting setting;
+  setting.options.limits.max_idle_blocks = 5000;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) setting.options.axes.add(axis);
+  return setting;
+}
+
+TEST(ErrorKinds, EachHasAProgramThatProvokesIt) {
+  for (const interp::KindText& kind : interp::error_kinds()) {
+    if (std::string(kind.kind) == "parameter_order") continue;  // of the parameter file, below
+    const std::string path = folder + kind.kind + ".ngc";
+    ASSERT_TRUE(std::filesystem::exists(path)) << path;
+    SourceMap sources;
+    const Ran ran = run_program(sources, read(path), small_limits());
+    const auto& list = ran.diagnostics.list();
+    const auto hit = std::find_if(list.begin(), list.end(),
+                                  [&](const Diagnostic& d) { return d.kind == kind.kind; });
+    ASSERT_NE(hit, list.end()) << kind.kind;
+    EXPECT_EQ(list.size(), 1u) << kind.kind << " brings others with it: " << list.back().kind;
+    EXPECT_TRUE(hit->span) << kind.kind << " has no place";
+    EXPECT_GT(hit->message.size(), 15u) << kind.kind;
+  }
+}
+
+TEST(ErrorKinds, EveryProgramBelongsToAKindAndEveryTextIsWritten) {
+  std::set<std::string> known;
+  for (const interp::KindText& kind : interp::error_kinds()) {
+    EXPECT_TRUE(known.insert(kind.kind).second) << kind.kind << " stands twice";
+    EXPECT_GT(std::string(kind.title).size(), 5u);
+    EXPECT_GT(std::string(kind.text).size(), 40u);
+  }
+  for (const auto& file : std::filesystem::directory_iterator(folder))
+    EXPECT_TRUE(known.contains(file.path().stem().string())) << file.path();
+}
+
+TEST(ErrorKinds, TheParameterFileMustAscend) {
+  SourceMap sources;
+  Diagnostics out;
+  const auto file =
+      interp::read_var(sources.add("a.var", "5161 1.5\n; text\n5163 2\n5162 3\n"), out);
+  EXPECT_EQ(out.errors(), 1u);
+  EXPECT_EQ(out.list().front().kind, "parameter_order");
+  EXPECT_EQ(out.list().front().span.line, 4u);
+  EXPECT_EQ(file.values.at(5161), 1.5);
+}
+
+}  // namespace
+}  // namespace aircut::test
