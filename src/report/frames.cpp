@@ -424,7 +424,7 @@ Expected<std::vector<std::string>> FrameMaker::write(const std::string& folder,
       render::Camera camera;
       if (!f.points.empty()) {
         constexpr double span = 260;  // mm across: a tool, its holder and what it met
-        camera = render::camera_for_finding(drawn.bodies, f.points.front(), span, aspect);
+        camera = renderer->camera_for_finding(drawn.bodies, f.points.front(), span);
       } else {
         const auto whole = render::camera_by_name("iso", impl.whole_box(drawn), aspect);
         if (!whole) return unexpected(whole.error());

@@ -30,7 +30,7 @@ void Simulator::step(const plan::Segment& segment) {
   if (segment.failure) {
     Finding f = finding_at(segment.failure->kind == "singular" ? Kind::singular : Kind::unreachable,
                            step, segment.t_end());
-    f.message = segment.failure->message;
+    f.message = "the path leaves what the machine can reach: " + segment.failure->message;
     f.u_first = f.u_end = segment.failure->fraction;
     f.tip = segment.failure->pose;
     findings_.add(f);
