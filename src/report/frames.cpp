@@ -79,10 +79,14 @@ class PathRecorder {
     return out;
   }
 
+  // Of the feed moves; of all moves when there are none.
   Box3 box(const Pose& X_WM) const {
-    Box3 box;
-    for (const PathPoint& point : points_) box.extend(X_WM * point.p);
-    return box;
+    Box3 feed, all;
+    for (const PathPoint& point : points_) {
+      all.extend(X_WM * point.p);
+      if (point.kind != plan::MotionKind::rapid) feed.extend(X_WM * point.p);
+    }
+    return feed.isEmpty() ? all : feed;
   }
 
  private:
@@ -289,16 +293,19 @@ struct FrameMaker::Impl {
     return out;
   }
 
-  // What `work` looks at: the tool path, the tool and the bodies near them.
+  // What `work` looks at: the feed moves, the fixtures, and room for the tool above them.
   Box3 work_box(const Snapshot& shot, const render::Scene& drawn) const {
+    constexpr double room_for_tool = 90;  // mm
     Box3 box = path.box(X_WM(shot.joints));
+    if (!box.isEmpty()) box.extend(Vec3(box.max() + Vec3(0, 0, room_for_tool)));
     const auto& bodies = scene.bodies();
     for (std::size_t i = 0, k = 0; i < bodies.size(); ++i) {
       if (!bodies[i].body.mesh) continue;
       const render::DrawBody& body = drawn.bodies[k++];
       const machine::Role role = bodies[i].body.role;
-      if (role == machine::Role::machine || role == machine::Role::spindle) continue;
-      box.extend(bounds(*body.mesh).transformed(body.X_WB));
+      if (role == machine::Role::fixture || role == machine::Role::part ||
+          role == machine::Role::stock)
+        box.extend(bounds(*body.mesh).transformed(body.X_WB));
     }
     return box;
   }
