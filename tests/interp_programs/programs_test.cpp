@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <set>
@@ -135,6 +136,46 @@ TEST(Programs, ProvokeEveryKindOfError) {
   for (const interp::KindText& kind : interp::error_kinds()) known.insert(kind.kind);
   for (const std::string& kind : provoked)
     EXPECT_TRUE(known.contains(kind)) << kind << " is not in the table of kinds";
+}
+
+/// The words of a program without its comments, in upper case and without blanks around them.
+std::set<std::string> codes_in(const std::string& text) {
+  std::set<std::string> codes;
+  bool comment = false;
+  std::string word;
+  const auto finish = [&] {
+    while (word.size() > 2 && word[1] == '0') word.erase(1, 1);
+    if (word.size() > 1) codes.insert(word);
+    word.clear();
+  };
+  for (const char c : text + "\n") {
+    if (c == ';' || c == '(') comment = true;
+    const char upper = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    const bool goes_on = !word.empty() && ((upper >= '0' && upper <= '9') || upper == '.');
+    if (!goes_on) finish();
+    if (!comment && (goes_on || upper == 'G' || upper == 'M')) word += upper;
+    if (c == ')' || c == '\n') comment = false;
+  }
+  return codes;
+}
+
+TEST(Programs, UseEveryCodeOfTheLanguage) {
+  std::set<std::string> used;
+  for (const ProgramFile& program : read_program_folder(folder)) used.merge(codes_in(program.text));
+  const char* const codes[] = {
+      "G0",    "G1",    "G2",    "G3",    "G4",    "G5",    "G5.1",  "G5.2",  "G5.3",  "G7",
+      "G8",    "G10",   "G17",   "G17.1", "G18",   "G18.1", "G19",   "G19.1", "G20",   "G21",
+      "G28",   "G28.1", "G30",   "G30.1", "G33",   "G33.1", "G38.2", "G38.3", "G38.4", "G38.5",
+      "G40",   "G41",   "G41.1", "G42",   "G42.1", "G43",   "G43.1", "G43.2", "G49",   "G52",
+      "G53",   "G54",   "G55",   "G56",   "G57",   "G58",   "G59",   "G59.1", "G59.2", "G59.3",
+      "G61",   "G61.1", "G64",   "G73",   "G74",   "G76",   "G80",   "G81",   "G82",   "G83",
+      "G84",   "G85",   "G86",   "G87",   "G89",   "G90",   "G90.1", "G91",   "G91.1", "G92",
+      "G92.1", "G92.2", "G92.3", "G93",   "G94",   "G95",   "G96",   "G97",   "G98",   "G99",
+      "M0",    "M1",    "M2",    "M3",    "M4",    "M5",    "M6",    "M7",    "M8",    "M9",
+      "M19",   "M30",   "M48",   "M49",   "M50",   "M51",   "M52",   "M53",   "M60",   "M61",
+      "M62",   "M63",   "M64",   "M65",   "M66",   "M67",   "M68",   "M70",   "M71",   "M72",
+      "M73",   "M98",   "M99",   "M100"};
+  for (const char* code : codes) EXPECT_TRUE(used.contains(code)) << code << " has no program";
 }
 
 TEST(Programs, GiveTheSameTwice) {

@@ -135,7 +135,7 @@ class Generator {
     return words.empty() ? " X1" : words;
   }
   std::string rotation() {
-    return rotates_ && one_in(2) ? " R" + pick({"30", "90", "-45", "0", "12.5"}) : "";
+    return rotates_ && !has_g92_ && one_in(2) ? " R" + pick({"30", "90", "-45", "0", "12.5"}) : "";
   }
   /// The stand-in of the reference for a tool changer takes the point of the last move for the
   /// current one and forgets rotation and length offset (docs/peer.md), so a program has tool
@@ -269,9 +269,11 @@ class Generator {
         add(pick({"G54", "G55", "G56", "G59.3", "G54"}));
         break;
       case 3:
+        has_g92_ = true;  // the reference misplaces the point when the rotation changes then
         add("G92" + offset_words());
         break;
       case 4:
+        has_g92_ = true;
         add("G52" + offset_words());
         break;
       case 5:
@@ -345,7 +347,7 @@ class Generator {
     line += " R" + decimal(incremental ? -2 : 1, 12);
     if (code == "G82" || code == "G89" || code == "G86" || (code == "G84" && one_in(2)))
       line += " P0." + std::to_string(1 + below(9));
-    if (code == "G83" || code == "G73") line += " Q" + decimal(1, 6);
+    if (code == "G83" || code == "G73") line += peck();
     // The reference refuses L with G74.
     if (one_in(4) && code != "G74") line += " L" + std::to_string(1 + below(3));
     add(line);
@@ -356,6 +358,11 @@ class Generator {
     if (one_in(5)) add(pick({"G81", "G82 X1", "G83 Y2", "G98", "G99"}));
     if (incremental) add("G90");
     if (!one_in(4)) add("G80");
+  }
+
+  /// Never a whole part of the depth, where rounding decides on the number of pecks.
+  std::string peck() {
+    return " Q" + std::to_string(1 + below(5)) + "." + std::to_string(10 + below(90)) + "3";
   }
 
   void parameter() {
@@ -700,6 +707,7 @@ class Generator {
   bool rotates_ = false;
   bool changes_unit_ = false;
   bool has_tool_ = false;
+  bool has_g92_ = false;
   bool has_break_ = false, has_do_ = false;
   int plane_ = 0;  // 0 XY, 1 ZX, 2 YZ
   bool inverse_time_ = false;
