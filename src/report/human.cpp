@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <set>
 
-#include "report/report.h"
+#include "report/messages.h"
+#include "report/text.h"
 
 namespace aircut::report {
 
@@ -69,14 +69,6 @@ std::string underline_remark(const sim::Finding& f) {
   return {};
 }
 
-std::vector<Diagnostic> messages(const RunReport& report, bool one_per_episode) {
-  std::vector<Diagnostic> out = report.diagnostics;
-  std::set<int> told;
-  for (const sim::Finding& f : report.findings)
-    if (!one_per_episode || told.insert(f.episode).second) out.push_back(to_diagnostic(f, report));
-  return out;
-}
-
 const char* verdict_paint(sim::Verdict verdict) {
   switch (verdict) {
     case sim::Verdict::pass:
@@ -89,15 +81,29 @@ const char* verdict_paint(sim::Verdict verdict) {
   return "";
 }
 
-std::string summary_text(const RunReport& report, const HumanOptions& options) {
+// Many programs: how many of each verdict.
+std::string programs_text(const RunReport& report) {
+  std::size_t counts[3] = {};
+  for (const Unit& unit : report.units) ++counts[static_cast<std::size_t>(unit.verdict)];
+  std::string out = "  programs " + std::to_string(report.units.size()) + ": ";
+  bool first = true;
+  for (const sim::Verdict v : {sim::Verdict::pass, sim::Verdict::fail, sim::Verdict::unknown}) {
+    const std::size_t n = counts[static_cast<std::size_t>(v)];
+    if (n == 0) continue;
+    out += (first ? "" : ", ") + std::to_string(n) + " " + std::string(sim::to_string(v));
+    first = false;
+  }
+  return out + "; ";
+}
+
+std::string summary_text(const RunReport& report, const std::vector<Message>& all,
+                         const HumanOptions& options) {
   const sim::Summary& s = report.summary;
   std::size_t errors = 0, warnings = 0;
-  const auto count = [&](Severity severity) {
-    errors += severity == Severity::error ? 1 : 0;
-    warnings += severity == Severity::warning ? 1 : 0;
-  };
-  for (const Diagnostic& d : report.diagnostics) count(d.severity);
-  for (const sim::Finding& f : report.findings) count(f.severity);
+  for (const Message& message : all) {
+    errors += message.text.severity == Severity::error ? 1 : 0;
+    warnings += message.text.severity == Severity::warning ? 1 : 0;
+  }
 
   std::string out = "verdict: ";
   if (options.style.color) out += verdict_paint(s.verdict);
@@ -106,10 +112,13 @@ std::string summary_text(const RunReport& report, const HumanOptions& options) {
   out += " (" + plural(errors, "error") + ", " + plural(warnings, "warning") + ")\n";
   if (options.quiet) return out;
 
-  for (const Input& input : report.inputs)
-    if (input.role == "program") out += "  program  " + printable(input.path) + ": ";
+  if (!report.units.empty())
+    out += programs_text(report);
+  else
+    for (const Input& input : report.inputs)
+      if (input.role == "program") out += "  program  " + printable(input.path) + ": ";
   out += plural(s.blocks, "block") + ", " + plural(s.moves, "move");
-  if (report.machine.empty()) return out + "\n";
+  if (report.machine.empty() || !report.units.empty()) return out + "\n";
   out += ", " + clock(s.cycle_time) + " (feed " + clock(s.feed_time) + ", rapid " +
          clock(s.rapid_time);
   if (s.tool_change_time > 0) out += ", tool change " + clock(s.tool_change_time);
@@ -117,7 +126,7 @@ std::string summary_text(const RunReport& report, const HumanOptions& options) {
   out += ")\n  machine  " + printable(report.machine);
   for (const auto& joint : s.joints) {
     const double scale = joint.rotary ? degrees : 1;
-    out += (&joint == &s.joints.front() ? ": " : ", ") + joint.name + " " +
+    out += (&joint == &s.joints.front() ? ": " : ", ") + printable(joint.name) + " " +
            fixed(joint.low * scale, 2) + " … " + fixed(joint.high * scale, 2) +
            (joint.rotary ? "°" : "");
   }
@@ -167,55 +176,26 @@ Diagnostic to_diagnostic(const sim::Finding& f, const RunReport& report) {
 
 std::string to_human(const RunReport& report, const HumanOptions& options) {
   std::string out;
+  const std::vector<Message> all = messages(report, Take::episodes);
   if (!options.quiet) {
-    if (!report.summary.unchecked.empty()) {
-      out += "not checked:\n";
-      for (const std::string& what : report.summary.unchecked)
-        out += "  - " + printable(what) + "\n";
-      out += "\n";
+    const std::vector<std::string> open = unchecked(report);
+    if (!open.empty()) out += "not checked:\n";
+    for (std::size_t i = 0; i < std::min(open.size(), options.most); ++i)
+      out += "  - " + printable(open[i]) + "\n";
+    if (open.size() > options.most)
+      out += "  - … and " + std::to_string(open.size() - options.most) + " more\n";
+    if (!open.empty()) out += "\n";
+    for (std::size_t i = 0; i < std::min(all.size(), options.most); ++i) {
+      Diagnostic d = all[i].text;
+      if (!d.span && !report.units.empty() && !all[i].program.empty())
+        d.notes.insert(d.notes.begin(), {"program", all[i].program});
+      out += format_human(d, options.style) + "\n";
     }
-    const std::vector<Diagnostic> all = messages(report, true);
-    for (std::size_t i = 0; i < std::min(all.size(), options.most); ++i)
-      out += format_human(all[i], options.style) + "\n";
     if (all.size() > options.most)
       out += "… and " + plural(all.size() - options.most, "more message") +
              "; --format json has them all\n\n";
   }
-  return out + summary_text(report, options);
-}
-
-std::string to_gcc(const RunReport& report) {
-  std::string out;
-  for (const Diagnostic& d : messages(report, false)) out += format_gcc(d) + "\n";
-  return out;
-}
-
-std::string to_github(const RunReport& report) {
-  // Workflow commands: `%`, CR and LF are escaped; in properties also `:` and `,`.
-  const auto escaped = [](std::string_view text, bool property) {
-    std::string out;
-    for (const char c : text) {
-      if (c == '%' || c == '\r' || c == '\n' || (property && (c == ':' || c == ','))) {
-        constexpr const char* digits = "0123456789ABCDEF";
-        const auto byte = static_cast<unsigned char>(c);
-        out += {'%', digits[byte >> 4], digits[byte & 15]};
-      } else {
-        out += c;
-      }
-    }
-    return out;
-  };
-  std::string out;
-  for (const Diagnostic& d : messages(report, false)) {
-    out += d.severity == Severity::error     ? "::error "
-           : d.severity == Severity::warning ? "::warning "
-                                             : "::notice ";
-    if (d.span)
-      out += "file=" + escaped(d.span.text->name(), true) + ",line=" + std::to_string(d.span.line) +
-             ",col=" + std::to_string(d.span.column()) + ",";
-    out += "title=" + escaped(d.kind, true) + "::" + escaped(d.message, false) + "\n";
-  }
-  return out;
+  return harmless(out + summary_text(report, all, options));
 }
 
 }  // namespace aircut::report

@@ -1,4 +1,5 @@
-// report: what a run says, as text for people and as JSON, and the pictures that go with it.
+// report: what a run says, as text for people and for programs, and the pictures that go with it.
+// Text of inputs is escaped by every format, and what was not checked comes first in each.
 #pragma once
 
 #include <cstdint>
@@ -19,6 +20,16 @@ struct Input {
   std::string sha256;
 };
 
+/// One of many programs that were checked in one go: its own verdict, and which of the report's
+/// diagnostics are its.
+struct Unit {
+  std::string program;  ///< as the user wrote it
+  sim::Verdict verdict = sim::Verdict::unknown;
+  std::uint64_t blocks = 0, moves = 0;
+  std::vector<std::string> unchecked;
+  std::size_t first = 0, count = 0;  ///< range in RunReport::diagnostics
+};
+
 /// Everything that a run ends with.
 struct RunReport {
   std::string version;
@@ -31,11 +42,16 @@ struct RunReport {
   sim::Summary summary;
   std::vector<std::string> joint_names;
   std::vector<bool> joint_rotary;
-  std::vector<std::string> outputs;  ///< relative to the output folder
+  std::vector<std::string> outputs;                   ///< relative to the output folder
+  std::vector<Unit> units;                            ///< empty when there was one program
+  std::optional<Severity> fail_on = Severity::error;  ///< from here on the verdict is `fail`
 };
 
 /// schema 1; one document, keys in a fixed order, ends with a line end.
 std::string to_json(const RunReport& report);
+/// The same items, one per line; the last is the summary, without which the rest is not to be
+/// trusted.
+std::string to_jsonl(const RunReport& report);
 
 /// A finding as a message: excerpt, times, joints, state, remedy.
 Diagnostic to_diagnostic(const sim::Finding& finding, const RunReport& report);
@@ -51,5 +67,17 @@ std::string to_human(const RunReport& report, const HumanOptions& options);
 std::string to_gcc(const RunReport& report);
 /// GitHub workflow annotations.
 std::string to_github(const RunReport& report);
+
+/// JUnit XML: a suite per program, a case per kind of message and one that asks whether everything
+/// was checked.
+std::string to_junit(const RunReport& report);
+
+struct SarifOptions {
+  std::vector<KindText> kinds;  ///< texts of the rules
+  std::string folder;           ///< absolute paths below it are written relative to it
+  std::size_t most = 25'000;    ///< results that are written; all are counted
+};
+/// SARIF 2.1.0.
+std::string to_sarif(const RunReport& report, const SarifOptions& options);
 
 }  // namespace aircut::report

@@ -64,7 +64,8 @@ TEST(Architecture, ThirdPartyLibrariesStayInTheirWrapper) {
   const std::map<std::string, std::string> wrapper = {
       {"assimp/", "geometry"}, {"fcl/", "collide"}, {"GL/", "render"},
       {"ft2build", "render"},  {"png.h", "render"}, {"toml++/", "config"},
-      {"nlohmann/", "report"}, {"CLI/", "cli"},     {"nettle/", "base"}};
+      {"nlohmann/", "report"}, {"CLI/", "cli"},     {"nettle/", "base"},
+      {"pugixml", "report"}};
   for (const auto& entry : fs::recursive_directory_iterator(root / "src")) {
     if (!entry.is_regular_file()) continue;
     const std::string folder = fs::relative(entry.path(), root / "src").begin()->string();
