@@ -121,6 +121,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   CheckArguments check;
   TraceArguments trace;
   MachineArguments machine;
+  KinArguments kin;
   ExplainArguments explain;
   std::vector<std::string> set;
   std::string fail_on = "error", size = "1280x800";
@@ -238,6 +239,34 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_render->add_option("--tool", machine.tool, "tool in the spindle")->type_name("T");
   c_render->add_flag("--force", machine.force, "replace a file that exists");
 
+  CLI::App* c_kin = app.add_subcommand(
+      "kin",
+      "the kinematics of a machine as a filter: a row of numbers per line from standard input\n\n"
+      "Pose words are the machine's program axes in the order X Y Z A B C U V W (the point at the\n"
+      "spindle's face, in mm and degrees), joints those of the joint log. Numbers are separated "
+      "by\n"
+      "blanks or commas; words like X1 Y2 B30 (S1=395.3 for joints) may stand in any order. Of\n"
+      "several solutions the one nearest to home is taken. A row without an answer gives a line\n"
+      "`error: …`, and exit code 1.\n\n"
+      "  echo '250 0 -300' | aircut kin ik -m ox-glide-crossed\n"
+      "  echo 'X250 Y0 Z-300' | aircut kin ik -m ox-glide-crossed | aircut kin fk -m "
+      "ox-glide-crossed");
+  c_kin->require_subcommand(1);
+  const auto add_kin = [&](const char* name, const char* text, KinArguments::Action action) {
+    CLI::App* c = c_kin->add_subcommand(name, text);
+    c->add_option("-m,--machine", kin.machine, "package folder, machine.toml, or a shipped name")
+        ->required()
+        ->type_name("MACHINE");
+    add_color(c, kin.color);
+    c->callback([&kin, action] { kin.action = action; });
+  };
+  add_kin("fk", "joints → pose", KinArguments::Action::fk);
+  add_kin("ik", "pose → joints, which must be inside their limits", KinArguments::Action::ik);
+  add_kin("jac",
+          "pose → d joint / d pose word, row by row: all pose words of the first joint, then of "
+          "the second, …",
+          KinArguments::Action::jac);
+
   CLI::App* c_explain = app.add_subcommand("explain",
                                            "what a kind of message means\n\n"
                                            "  aircut explain arc_error\n"
@@ -267,7 +296,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     if (word.starts_with("-")) {
       message = "there is no option '" + printable(word) + "'." +
                 did_you_mean(word.substr(0, word.find('=')), option_names(active()));
-    } else if (active() == &app || active() == c_machine) {
+    } else if (active() == &app || active() == c_machine || active() == c_kin) {
       std::vector<std::string> names;
       for (const CLI::App* sub : active()->get_subcommands({})) names.push_back(sub->get_name());
       message = "there is no command '" + printable(word) + "'." + did_you_mean(word, names);
@@ -283,7 +312,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     std::printf("%s\n", e.what());
     return 0;
   } catch (const CLI::ParseError& e) {
-    CLI::App* at = active() == c_machine ? c_machine : &app;
+    CLI::App* at = active() == c_machine || active() == c_kin ? active() : &app;
     const std::string word = at == &app ? (argc > 1 ? argv[1] : "") : (argc > 2 ? argv[2] : "");
     if (active() == at && !word.empty() && !word.starts_with("-")) {
       std::vector<std::string> names;
@@ -338,6 +367,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     std::tie(machine.width, machine.height) = *pixels;
     return Arguments(machine);
   }
+  if (c_kin->parsed()) return Arguments(kin);
   if (c_explain->parsed()) {
     if (explain.kind.empty() && !explain.list)
       return usage_error(make_error("usage", "explain needs a kind, or --list for all of them"),

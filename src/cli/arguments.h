@@ -74,6 +74,12 @@ struct MachineArguments {
   When color = When::automatic;
 };
 
+struct KinArguments {
+  enum class Action { fk, ik, jac } action = Action::ik;
+  std::string machine;
+  When color = When::automatic;
+};
+
 struct ExplainArguments {
   std::string kind;
   bool list = false;
@@ -82,7 +88,7 @@ struct ExplainArguments {
 struct DoctorArguments {};
 
 using Arguments = std::variant<RunArguments, CheckArguments, TraceArguments, MachineArguments,
-                               ExplainArguments, DoctorArguments>;
+                               KinArguments, ExplainArguments, DoctorArguments>;
 
 /// Either what to do, or the exit code when the command line was answered (help, version, usage).
 std::variant<Arguments, int> parse(int argc, char** argv);

@@ -18,6 +18,7 @@ int main(int argc, char** argv) {
                           [](const CheckArguments& a) { return check_command(a); },
                           [](const TraceArguments& a) { return trace_command(a); },
                           [](const MachineArguments& a) { return machine_command(a); },
+                          [](const KinArguments& a) { return kin_command(a); },
                           [](const ExplainArguments& a) { return explain_command(a); },
                           [](const DoctorArguments&) { return doctor_command(); },
                       },

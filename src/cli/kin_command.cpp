@@ -1,0 +1,276 @@
+// `aircut kin fk|ik|jac`: the kinematics of a machine as a filter. One row of numbers per line of
+// standard input, one row (or `error: …`) per line of standard output. Every row stands alone: of
+// several solutions the one nearest to home is taken.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+#include "cli/exit_code.h"
+#include "cli/job.h"
+
+namespace aircut::cli {
+
+namespace {
+
+using machine::JointId;
+using machine::JointVector;
+using machine::Machine;
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// One place of a row: its name, and the size of the user's unit (1 mm, or a degree in rad).
+struct Column {
+  std::string name;
+  double unit;
+};
+
+using Row = std::vector<double>;
+using RowOrReason = tl::expected<Row, std::string>;
+
+std::vector<Axis> pose_axes(const Machine& machine) {
+  std::vector<Axis> axes;
+  for (const Axis axis : all_axes)
+    if (machine.kinematics().axes().has(axis)) axes.push_back(axis);
+  return axes;
+}
+
+std::vector<Column> pose_columns(const Machine& machine) {
+  std::vector<Column> columns;
+  for (const Axis axis : pose_axes(machine))
+    columns.push_back({std::string(1, letter(axis)), is_rotary(axis) ? degree : 1});
+  return columns;
+}
+
+std::vector<Column> joint_columns(const Machine& machine) {
+  std::vector<Column> columns;
+  for (int i = 0; i < machine.joint_count(); ++i) {
+    const machine::Joint& joint = machine.joint(JointId{i});
+    columns.push_back({joint.name, joint.kind == machine::JointKind::rotary ? degree : 1});
+  }
+  return columns;
+}
+
+// 12 significant digits, the same in every locale.
+std::string digits12(double value) {
+  char text[32];
+  if (value == 0) value = 0;  // minus zero loses its sign
+  const auto end =
+      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 12).ptr;
+  return std::string(text, end);
+}
+
+void print_row(const Row& row) {
+  std::string line;
+  for (const double value : row) line += (line.empty() ? "" : " ") + digits12(value);
+  std::puts(line.c_str());
+}
+
+// ---- reading a row ---------------------------------------------------------------------------
+
+// A decimal number, with an exponent if it likes: what a program printed can be read again.
+std::optional<double> number_of(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+    return std::nullopt;
+  return value;
+}
+
+bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
+
+std::vector<std::string_view> words_of(std::string_view line) {
+  std::vector<std::string_view> words;
+  for (std::size_t i = 0; i < line.size();) {
+    if (is_separator(line[i])) {
+      ++i;
+      continue;
+    }
+    std::size_t end = i;
+    while (end < line.size() && !is_separator(line[end])) ++end;
+    words.push_back(line.substr(i, end - i));
+    i = end;
+  }
+  return words;
+}
+
+char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+bool same_name(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](char x, char y) { return upper(x) == upper(y); });
+}
+
+std::string names_of(const std::vector<Column>& columns) {
+  std::string names;
+  for (const Column& column : columns) names += (names.empty() ? "" : " ") + column.name;
+  return printable(names);
+}
+
+// `B30`, or `S1=30` for names that are longer than a letter. Returns the column.
+tl::expected<std::pair<std::size_t, double>, std::string> named_value(
+    std::string_view word, const std::vector<Column>& columns) {
+  const std::size_t equals = word.find('=');
+  const std::string_view name = word.substr(0, equals == word.npos ? 1 : equals);
+  const auto value = number_of(word.substr(equals == word.npos ? 1 : equals + 1));
+  for (std::size_t i = 0; i < columns.size() && value; ++i)
+    if (same_name(columns[i].name, name)) return std::pair(i, *value);
+  return unexpected("'" + printable(word) + "' is neither a number nor one of the words " +
+                    names_of(columns) + " with a number, like " + printable(columns[0].name) +
+                    (columns[0].name.size() == 1 ? "" : "=") + "12.5");
+}
+
+// Values in the user's units, by column.
+RowOrReason read_row(std::string_view line, const std::vector<Column>& columns) {
+  const std::vector<std::string_view> words = words_of(line);
+  Row row(columns.size());
+  std::vector<bool> given(columns.size(), false);
+  std::size_t plain = 0;
+  for (const std::string_view word : words) {
+    if (const auto value = number_of(word)) {
+      if (plain < columns.size()) row[plain] = *value;
+      ++plain;
+      continue;
+    }
+    const auto named = named_value(word, columns);
+    if (!named) return unexpected(named.error());
+    if (given[named->first])
+      return unexpected("'" + printable(columns[named->first].name) + "' is given twice");
+    given[named->first] = true;
+    row[named->first] = named->second;
+  }
+  if (plain == words.size() && plain != columns.size())
+    return unexpected("a row needs " + std::to_string(columns.size()) + " numbers (" +
+                      names_of(columns) + "), this one has " + std::to_string(plain));
+  if (plain == words.size()) return row;
+  if (plain > 0)
+    return unexpected("a row has either plain numbers or words with names, this one has both");
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    if (!given[i]) return unexpected("'" + printable(columns[i].name) + "' is missing");
+  return row;
+}
+
+// ---- the three questions -----------------------------------------------------------------------
+
+std::string reason_of(const machine::ReachError& error) { return error.reason; }
+
+AxisValues tip_of(const Machine& machine, const Row& row) {
+  AxisValues tip;
+  const auto axes = pose_axes(machine);
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    tip[axes[i]] = row[i] * (is_rotary(axes[i]) ? degree : 1);
+  return tip;
+}
+
+RowOrReason forward_row(const Machine& machine, const Row& row) {
+  const auto joints = joint_columns(machine);
+  JointVector q(machine.joint_count());
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    q[static_cast<Eigen::Index>(i)] = row[i] * joints[i].unit;
+  const auto tip = machine.kinematics().forward(q, {});
+  if (!tip) return unexpected(reason_of(tip.error()));
+  Row out;
+  for (const Axis axis : pose_axes(machine))
+    out.push_back((*tip)[axis] / (is_rotary(axis) ? degree : 1));
+  return out;
+}
+
+// Why a joint is outside of its travel; nothing when it is inside. Rows carry 12 digits, so a limit
+// is reached within 1e-6 of the unit.
+std::optional<std::string> beyond_limit(const Machine& machine, const Row& joints) {
+  constexpr double slack = 1e-6;
+  const auto columns = joint_columns(machine);
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const machine::Joint& joint = machine.joint(JointId{static_cast<int>(i)});
+    const double low = joint.min / columns[i].unit, high = joint.max / columns[i].unit;
+    if (joints[i] >= low - slack && joints[i] <= high + slack) continue;
+    return "joint " + printable(joint.name) + " would be at " +
+           shortest(std::round(joints[i] * 1e6) / 1e6) + ", its limit is " +
+           shortest(std::round((joints[i] < low ? low : high) * 1e9) / 1e9);
+  }
+  return std::nullopt;
+}
+
+RowOrReason inverse_row(const Machine& machine, const Row& row) {
+  const auto q = machine.kinematics().inverse({tip_of(machine, row), {}}, machine.home());
+  if (!q) return unexpected(reason_of(q.error()));
+  const auto columns = joint_columns(machine);
+  Row out;
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    out.push_back((*q)[static_cast<Eigen::Index>(i)] / columns[i].unit);
+  if (const auto reason = beyond_limit(machine, out)) return unexpected(*reason);
+  return out;
+}
+
+// ∂ joint / ∂ pose word at a pose, row by row: a row per joint, a column per pose word.
+RowOrReason jacobian_row(const Machine& machine, const Row& row) {
+  const machine::Target target{tip_of(machine, row), {}};
+  const auto reachable = machine.kinematics().inverse(target, machine.home());
+  if (!reachable) return unexpected(reason_of(reachable.error()));
+  const auto axes = pose_axes(machine);
+  const auto joints = joint_columns(machine);
+  Row out(joints.size() * axes.size());
+  for (std::size_t column = 0; column < axes.size(); ++column) {
+    AxisValues step;
+    step[axes[column]] = 1;
+    JointVector dq, ddq;
+    if (!machine.kinematics().rates(target, step, {}, dq, ddq) || !dq.allFinite())
+      return unexpected("the joints would need an infinite speed there (a singular pose)");
+    const double unit = is_rotary(axes[column]) ? degree : 1;
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      out[i * axes.size() + column] = dq[static_cast<Eigen::Index>(i)] * unit / joints[i].unit;
+  }
+  return out;
+}
+
+}  // namespace
+
+int kin_command(const KinArguments& a) {
+  using Action = KinArguments::Action;
+  Job job;
+  ProgramArguments inputs;
+  inputs.machine = a.machine;
+  const bool opened = open_inputs(job, inputs);
+  print_errors(job.diagnostics, a.color);
+  if (!opened) return code(ExitCode::unknown);
+  const auto input = open_program(job.sources, "-");
+  if (!input) {
+    print_error(input.error(), a.color);
+    return code(ExitCode::unknown);
+  }
+  const Machine& machine = *job.machine;
+  const auto columns = a.action == Action::fk ? joint_columns(machine) : pose_columns(machine);
+  const auto answer = [&](const Row& row) {
+    switch (a.action) {
+      case Action::fk:
+        return forward_row(machine, row);
+      case Action::ik:
+        return inverse_row(machine, row);
+      case Action::jac:
+        break;
+    }
+    return jacobian_row(machine, row);
+  };
+  std::string_view rest = (*input)->content();
+  if (rest.empty()) {
+    print_error(make_error("input", "no rows on standard input; a row is " + names_of(columns)),
+                a.color);
+    return code(ExitCode::unknown);
+  }
+  bool good = true;
+  while (!rest.empty()) {
+    const std::size_t end = rest.find('\n');
+    const RowOrReason out = read_row(rest.substr(0, end), columns).and_then(answer);
+    rest = end == rest.npos ? std::string_view() : rest.substr(end + 1);
+    good = good && out.has_value();
+    if (out)
+      print_row(*out);
+    else
+      std::printf("error: %s\n", out.error().c_str());
+  }
+  return code(good ? ExitCode::pass : ExitCode::fail);
+}
+
+}  // namespace aircut::cli
