@@ -101,7 +101,7 @@ tl::expected<JointPoint, ReachError> joint_point(const machine::Kinematics& kine
         best = fine;
       }
       // Smaller steps only bring rounding once the two agree, or agree less than before.
-      if (difference < 1e-6 || difference > 10 * best_difference) break;
+      if (difference < 1e-6 || (best_difference < 1e-3 && difference > 10 * best_difference)) break;
     } else if (fine && !best) {
       best = fine;
     }
