@@ -520,25 +520,30 @@ class Generator {
     }
     const std::string side = pick({"G41", "G42"});
     add("G40 G49 G80 G90 G94 F100");
-    add("G0 X-30 Y-30");
+    add("G0 X-40 Y-10");
     add(one_in(3) ? side + " D" + std::to_string(1 + below(2))
                   : side + ".1 D" + pick({"4", "6", "-4", "0", "1"}));
-    static constexpr const char* corners[] = {"X0 Y0",   "X40 Y0",  "X40 Y30", "X20 Y50", "X0 Y30",
-                                              "X20 Y15", "X60 Y30", "X0 Y0",   "X10 Y40"};
-    add("G1 X-10 Y" + pick({"0", "-10", "5"}));
-    int at = below(9);
-    for (int i = 3 + below(4); i > 0; --i) {
-      at = (at + 1 + below(2)) % 9;
+    // A walk that turns by at most a right angle: near a reversal the two judge gouges differently.
+    static constexpr int ways[8][2] = {{10, 0},  {7, 7},   {0, 10},  {-7, 7},
+                                       {-10, 0}, {-7, -7}, {0, -10}, {7, -7}};
+    int x = -10, y = 5 * below(3), way = below(2);
+    const auto point = [&] { return "X" + std::to_string(x) + " Y" + std::to_string(y); };
+    add("G1 " + point());
+    for (int i = 4 + below(5); i > 0; --i) {
+      way = (way + 6 + below(5)) % 8;
+      const int length = 2 + below(3);
+      x += ways[way][0] * length;
+      y += ways[way][1] * length;
       if (one_in(4))
-        add(pick({"G2 ", "G3 "}) + corners[at] + " R" + pick({"40", "60", "35"}));
+        add(pick({"G2 ", "G3 "}) + point() + " R" + pick({"40", "60", "35"}));
       else
-        add(pick({"G1 ", "G1 ", "G1 ", "G0 "}) + corners[at] +
+        add(pick({"G1 ", "G1 ", "G1 ", "G0 "}) + point() +
             (one_in(5) ? " Z" + decimal(-5, 5) : ""));
       if (one_in(8)) add("G1 Z" + decimal(-5, 5));
       if (one_in(12)) add(pick({"M8", "G4 P1", "F80", "(in between)", "#1=#<_x>"}));
     }
     add("G40");
-    add("G1 X-30 Y-30");
+    add("G1 X-40 Y-30");
   }
 
   void home() {
