@@ -64,7 +64,8 @@ struct VectorFile {
 
 std::vector<VectorFile> vector_files() {
   const std::vector<std::string> glide = {"s1", "s2", "s3"};
-  return {{"ox_glide_crossed", "ox-glide-crossed", {"x", "y", "z"}, glide, true}};
+  return {{"ox_glide_crossed", "ox-glide-crossed", {"x", "y", "z"}, glide, true},
+          {"ox_glide_extended", "ox-glide-extended", {"x", "y", "z"}, glide, true}};
 }
 
 // A row per vector.

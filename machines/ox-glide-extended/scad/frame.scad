@@ -1,0 +1,2 @@
+// frame: the same as on the crossed form.
+include <../../ox-glide-crossed/scad/frame.scad>

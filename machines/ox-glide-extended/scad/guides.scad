@@ -1,0 +1,2 @@
+// guides: the same as on the crossed form.
+include <../../ox-glide-crossed/scad/guides.scad>

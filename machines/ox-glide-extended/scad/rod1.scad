@@ -1,0 +1,2 @@
+// rod1: the same as on the crossed form.
+include <../../ox-glide-crossed/scad/rod1.scad>

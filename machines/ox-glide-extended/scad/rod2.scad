@@ -1,0 +1,2 @@
+// rod2: the same as on the crossed form.
+include <../../ox-glide-crossed/scad/rod2.scad>

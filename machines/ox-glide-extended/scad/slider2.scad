@@ -1,0 +1,2 @@
+// slider2: the same as on the crossed form.
+include <../../ox-glide-crossed/scad/slider2.scad>

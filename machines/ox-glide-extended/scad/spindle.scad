@@ -1,0 +1,2 @@
+// spindle: the same as on the crossed form.
+include <../../ox-glide-crossed/scad/spindle.scad>

@@ -1,0 +1,2 @@
+// vise-base: the same as on the crossed form.
+include <../../ox-glide-crossed/scad/vise-base.scad>

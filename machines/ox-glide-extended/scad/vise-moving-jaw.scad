@@ -1,0 +1,2 @@
+// vise-moving-jaw: the same as on the crossed form.
+include <../../ox-glide-crossed/scad/vise-moving-jaw.scad>

@@ -1,0 +1,2 @@
+// vise-work: the same as on the crossed form.
+include <../../ox-glide-crossed/scad/vise-work.scad>
