@@ -241,7 +241,7 @@ Worst worst_derivative(const JointLog& log) {
   return worst;
 }
 
-Worst worst_path_deviation(const JointLog& log, const std::string& text) {
+Worst worst_path_deviation(const JointLog& log, const std::string& text, std::size_t around) {
   const std::vector<Piece> pieces = read_pieces(text);
   Worst worst{-1e300, "no pieces"};
   if (pieces.empty()) return {1e300, "no pieces"};
@@ -253,7 +253,8 @@ Worst worst_path_deviation(const JointLog& log, const std::string& text) {
     const auto own = std::lower_bound(pieces.begin(), pieces.end(), block,
                                       [](const Piece& p, int b) { return p.block < b; });
     const auto at = static_cast<std::size_t>(own - pieces.begin());
-    const std::size_t first = at < 2 ? 0 : at - 2, last = std::min(at + 3, pieces.size());
+    const std::size_t first = at < around ? 0 : at - around;
+    const std::size_t last = std::min(at + around + 1, pieces.size());
     double nearest = 1e300, tolerance = 0;
     for (std::size_t i = first; i < last; ++i) {
       nearest = std::min(nearest, pieces[i].distance_to(tip[k]));
@@ -266,8 +267,10 @@ Worst worst_path_deviation(const JointLog& log, const std::string& text) {
   double stride = 0;
   for (std::size_t k = 0; k + 1 < log.rows.size(); ++k)
     stride = std::max(stride, distance(tip[k], tip[k + 1]));
+  // Pieces of a few strides may lie between the samples of others altogether.
   for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (near_end[i] > stride + pieces[i].tolerance + 1e-6)
+    if (distance(pieces[i].start, pieces[i].end) > 5 * stride &&
+        near_end[i] > stride + pieces[i].tolerance + 1e-6)
       return {near_end[i], "the end of block " + std::to_string(pieces[i].block) +
                                " is never reached: " + std::to_string(near_end[i])};
   return worst;

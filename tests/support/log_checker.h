@@ -45,9 +45,10 @@ Worst worst_derivative(const JointLog& log);
 /// The programmed path, one piece per line of `text`:
 ///   BLOCK TOLERANCE line x y z  x y z
 ///   BLOCK TOLERANCE arc x y z  x y z  cx cy cz  nx ny nz  turns      (as canon::ArcFeed)
-/// Returns the largest distance of a logged tip from the pieces of its own block and two to either
-/// side, minus the tolerance. Every piece's end must come near a sample of the neighbourhood too.
-Worst worst_path_deviation(const JointLog& log, const std::string& text);
+/// Returns the largest distance of a logged tip from the pieces of its own block and `around` to
+/// either side (more where the tolerance is many pieces long), minus the tolerance. Every piece's
+/// end must come near a sample of the neighbourhood too.
+Worst worst_path_deviation(const JointLog& log, const std::string& text, std::size_t around = 2);
 
 /// Largest error (mm) of the rods' lengths of an O-X glide with its default parameters.
 Worst worst_rod_error(const JointLog& log);
