@@ -40,11 +40,14 @@ void add_program(CLI::App* app, ProgramArguments& a, std::vector<std::string>& s
 void add_output(CLI::App* app, OutputArguments& o, std::string& fail_on) {
   const std::map<std::string, Format> formats = {{"human", Format::human},
                                                  {"json", Format::json},
+                                                 {"jsonl", Format::jsonl},
                                                  {"gcc", Format::gcc},
+                                                 {"sarif", Format::sarif},
+                                                 {"junit", Format::junit},
                                                  {"github", Format::github}};
   app->add_option("--format", o.format, "form of the findings on stdout")
       ->transform(CLI::CheckedTransformer(formats).description(""))
-      ->type_name("human|json|gcc|github");
+      ->type_name("human|json|jsonl|gcc|sarif|junit|github");
   app->add_flag_callback(
       "--json", [&o] { o.format = Format::json; }, "the same as --format json");
   app->add_option("--fail-on", fail_on, "from which severity the exit code is 1 (default: error)")

@@ -11,7 +11,7 @@
 
 namespace aircut::cli {
 
-enum class Format { human, json, gcc, github };
+enum class Format { human, json, jsonl, gcc, sarif, junit, github };
 enum class When { automatic, always, never };
 
 /// What every command that reads a program takes.

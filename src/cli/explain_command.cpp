@@ -4,6 +4,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/job.h"
+#include "cli/print_report.h"
 
 namespace aircut::cli {
 
@@ -36,6 +37,8 @@ const std::vector<KindText>& general_kinds() {
   return kinds;
 }
 
+}  // namespace
+
 std::vector<KindText> all_kinds() {
   std::vector<KindText> out = general_kinds();
   const auto add = [&](const std::vector<KindText>& kinds) {
@@ -48,8 +51,6 @@ std::vector<KindText> all_kinds() {
   });
   return out;
 }
-
-}  // namespace
 
 int explain_command(const ExplainArguments& a) {
   const std::vector<KindText> kinds = all_kinds();

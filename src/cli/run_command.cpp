@@ -11,6 +11,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/job.h"
+#include "cli/print_report.h"
 #include "log/log.h"
 
 namespace aircut::cli {
@@ -120,27 +121,6 @@ Expected<report::FrameOptions> frame_options(const RunArguments& a) {
   return options;
 }
 
-void print_report(const report::RunReport& report, const OutputArguments& output) {
-  std::string text;
-  switch (output.format) {
-    case Format::human:
-      text = report::to_human(report, {.style = {use_color(output.color, STDOUT_FILENO)},
-                                       .most = output.max_findings,
-                                       .quiet = output.quiet});
-      break;
-    case Format::json:
-      text = report::to_json(report);
-      break;
-    case Format::gcc:
-      text = report::to_gcc(report);
-      break;
-    case Format::github:
-      text = report::to_github(report);
-      break;
-  }
-  std::fwrite(text.data(), 1, text.size(), stdout);
-}
-
 }  // namespace
 
 int run_command(const RunArguments& a) {
@@ -210,6 +190,7 @@ int run_command(const RunArguments& a) {
 
   report::RunReport report;
   report.version = AIRCUT_VERSION;
+  report.fail_on = a.output.fail_on;
   report.machine = machine.name();
   report.inputs = job.inputs;
   report.checks = {"syntax"};
@@ -259,48 +240,6 @@ int run_command(const RunArguments& a) {
                 }()
                     .c_str());
   if (stop_signal != 0) return 128 + stop_signal;
-  return code(exit_code_of(report.summary.verdict));
-}
-
-int check_command(const CheckArguments& a) {
-  ProgramArguments inputs = a.program;
-  Job job;
-  if (!open_inputs(job, inputs)) {
-    print_errors(job.diagnostics, a.output.color);
-    return code(ExitCode::unknown);
-  }
-  report::RunReport report;
-  report.version = AIRCUT_VERSION;
-  report.inputs = job.inputs;
-  report.checks = {"syntax"};
-  report.diagnostics = job.diagnostics.list();
-  for (const std::string& path : a.programs) {
-    const auto program = open_program(job.sources, path);
-    if (!program) {
-      print_error(program.error(), a.output.color);
-      report.summary.unchecked.push_back(path + ": it can't be read");
-      continue;
-    }
-    report.inputs.push_back({"program", path, sha256((*program)->content())});
-    Diagnostics diagnostics;
-    interp::Interpreter interpreter(**program, job.tools, job.parameters,
-                                    interpreter_options(job, inputs, **program),
-                                    sub_reader(job.sources), diagnostics);
-    while (const auto command = interpreter.next()) {
-      if (canon::is_motion(command->action)) ++report.summary.moves;
-      if (const auto* probe = std::get_if<canon::Probe>(&command->action))
-        interpreter.resume({.tip = probe->end, .tripped = false});
-    }
-    report.summary.blocks += interpreter.statistics().blocks;
-    if (interpreter.statistics().limit_reached)
-      report.summary.unchecked.push_back(path + ": a limit on its length was reached");
-    if (diagnostics.errors() > 0) report.summary.program_refused = true;
-    for (const Diagnostic& d : diagnostics.list()) report.diagnostics.push_back(d);
-  }
-  Diagnostics all;
-  for (const Diagnostic& d : report.diagnostics) all.add(d);
-  report.summary.verdict = sim::judge({}, report.summary, all, a.output.fail_on);
-  print_report(report, a.output);
   return code(exit_code_of(report.summary.verdict));
 }
 

@@ -1,0 +1,85 @@
+// Many programs in one go. Each is a unit of its own: it has its own interpreter, verdict and
+// texts. The texts of a program stay only while a message points into them, so memory grows with
+// what is said and not with what was read.
+
+#include <memory>
+
+#include "cli/exit_code.h"
+#include "cli/job.h"
+#include "cli/print_report.h"
+
+namespace aircut::cli {
+
+namespace {
+
+// Reads a program to its end; moves nothing. What it says is added to `diagnostics`.
+report::Unit check_program(const Job& job, const ProgramArguments& arguments,
+                           const SourceText& program, SourceMap& sources,
+                           Diagnostics& diagnostics) {
+  report::Unit unit;
+  interp::Interpreter interpreter(program, job.tools, job.parameters,
+                                  interpreter_options(job, arguments, program), sub_reader(sources),
+                                  diagnostics);
+  while (const auto command = interpreter.next()) {
+    if (canon::is_motion(command->action)) ++unit.moves;
+    if (const auto* probe = std::get_if<canon::Probe>(&command->action))
+      interpreter.resume({.tip = probe->end, .tripped = false});
+  }
+  unit.blocks = interpreter.statistics().blocks;
+  if (interpreter.statistics().limit_reached)
+    unit.unchecked.push_back(program.name() + ": a limit on its length was reached");
+  return unit;
+}
+
+}  // namespace
+
+int check_command(const CheckArguments& a) {
+  Job job;
+  if (!open_inputs(job, a.program)) {
+    print_errors(job.diagnostics, a.output.color);
+    return code(ExitCode::unknown);
+  }
+  report::RunReport report;
+  report.version = AIRCUT_VERSION;
+  report.inputs = job.inputs;
+  report.checks = {"syntax"};
+  report.fail_on = a.output.fail_on;
+  report.diagnostics = job.diagnostics.list();
+  if (job.machine) report.machine = job.machine->name();
+
+  std::vector<std::unique_ptr<SourceMap>> kept;
+  for (const std::string& path : a.programs) {
+    auto sources = std::make_unique<SourceMap>();
+    Diagnostics diagnostics;
+    sim::Summary summary;
+    report::Unit unit;
+    if (const auto program = open_program(*sources, path)) {
+      report.inputs.push_back({"program", path, sha256((*program)->content())});
+      unit = check_program(job, a.program, **program, *sources, diagnostics);
+    } else {
+      if (a.output.quiet) print_error(program.error(), a.output.color);
+      unit.unchecked.push_back(program.error().message);
+    }
+    unit.program = path;
+    summary.unchecked = unit.unchecked;
+    summary.program_refused = diagnostics.errors() > 0;
+    unit.verdict = sim::judge({}, summary, diagnostics, a.output.fail_on);
+    unit.first = report.diagnostics.size();
+    unit.count = diagnostics.list().size();
+    for (const Diagnostic& d : diagnostics.list()) report.diagnostics.push_back(d);
+    if (unit.count > 0) kept.push_back(std::move(sources));
+
+    report.summary.blocks += unit.blocks;
+    report.summary.moves += unit.moves;
+    report.summary.program_refused |= summary.program_refused;
+    for (const std::string& what : unit.unchecked) report.summary.unchecked.push_back(what);
+    report.units.push_back(std::move(unit));
+  }
+  Diagnostics all;
+  for (const Diagnostic& d : report.diagnostics) all.add(d);
+  report.summary.verdict = sim::judge({}, report.summary, all, a.output.fail_on);
+  print_report(report, a.output);
+  return code(exit_code_of(report.summary.verdict));
+}
+
+}  // namespace aircut::cli

@@ -1,0 +1,47 @@
+#include "cli/print_report.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "cli/job.h"
+
+namespace aircut::cli {
+
+namespace {
+
+std::string text_of(const report::RunReport& report, const OutputArguments& output) {
+  switch (output.format) {
+    case Format::human:
+      return report::to_human(report, {.style = {use_color(output.color, STDOUT_FILENO)},
+                                       .most = output.max_findings,
+                                       .quiet = output.quiet});
+    case Format::json:
+      return report::to_json(report);
+    case Format::jsonl:
+      return report::to_jsonl(report);
+    case Format::gcc:
+      return report::to_gcc(report);
+    case Format::sarif: {
+      std::error_code error;
+      return report::to_sarif(
+          report,
+          {.kinds = all_kinds(), .folder = std::filesystem::current_path(error).generic_string()});
+    }
+    case Format::junit:
+      return report::to_junit(report);
+    case Format::github:
+      return report::to_github(report);
+  }
+  return {};
+}
+
+}  // namespace
+
+void print_report(const report::RunReport& report, const OutputArguments& output) {
+  const std::string text = text_of(report, output);
+  std::fwrite(text.data(), 1, text.size(), stdout);
+}
+
+}  // namespace aircut::cli

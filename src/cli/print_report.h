@@ -1,0 +1,14 @@
+// The report on stdout, in the form that was asked for.
+#pragma once
+
+#include "cli/arguments.h"
+#include "report/report.h"
+
+namespace aircut::cli {
+
+/// All kinds of messages with their long text, sorted by kind.
+std::vector<KindText> all_kinds();
+
+void print_report(const report::RunReport& report, const OutputArguments& output);
+
+}  // namespace aircut::cli
