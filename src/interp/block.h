@@ -68,8 +68,6 @@ struct OWord {
   std::int32_t entry = -1;  ///< index in the file's flow index once known
 };
 
-struct Fault;
-
 struct Block {
   std::uint64_t begin = 0;       ///< byte offset of the line in its text
   std::uint32_t line = 0;        ///< from 1
@@ -78,6 +76,8 @@ struct Block {
   bool block_delete = false;
   bool empty = true;             ///< nothing but blanks
   bool has_rules = false;        ///< has G or M words
+  bool plain_move = true;        ///< nothing but axis words and perhaps G0 or G1
+  std::uint32_t letters = 0;     ///< bit per letter_index of a word
   bool has_expressions = false;  ///< some word needs evaluation
   std::vector<Word> words;
   std::array<std::int8_t, 32> slot{};  ///< letter_index → position in words, -1 without
@@ -96,6 +96,11 @@ constexpr int letter_index(char letter) {
   if (letter >= 'A' && letter <= 'Z') return letter - 'A';
   return letter == '$' ? 26 : letter == '@' ? 27 : 28;
 }
+
+constexpr std::uint32_t letter_bit(char letter) { return 1u << letter_index(letter); }
+constexpr std::uint32_t axis_letters = letter_bit('X') | letter_bit('Y') | letter_bit('Z') |
+                                       letter_bit('A') | letter_bit('B') | letter_bit('C') |
+                                       letter_bit('U') | letter_bit('V') | letter_bit('W');
 
 inline const Word* Block::find(char letter) const {
   const int at = slot[static_cast<std::size_t>(letter_index(letter))];

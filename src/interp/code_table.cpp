@@ -217,9 +217,10 @@ CodeTable::CodeTable() {
 
 const CodeRule* CodeTable::find(char letter, double number) const {
   const double scaled = letter == 'G' ? number * 10 : number;
-  const double nearest = std::round(scaled);
+  if (!(scaled > -1 && scaled < 1000)) return nullptr;
+  const auto nearest = static_cast<double>(static_cast<int>(scaled + 0.5));
   const double band = letter == 'G' ? 1e-3 : 1e-4;
-  if (!(std::fabs(scaled - nearest) <= band) || nearest < 0) return nullptr;
+  if (std::fabs(scaled - nearest) > band) return nullptr;
   const auto code = static_cast<std::size_t>(nearest);
   if (letter == 'G') return nearest < 1000 ? g_[code] : nullptr;
   return nearest < 200 ? m_[code] : nullptr;

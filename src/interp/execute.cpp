@@ -7,9 +7,7 @@
 namespace aircut::interp {
 namespace {
 
-constexpr std::uint32_t bit(char letter) { return 1u << letter_index(letter); }
-constexpr std::uint32_t axis_letters = bit('X') | bit('Y') | bit('Z') | bit('A') | bit('B') |
-                                       bit('C') | bit('U') | bit('V') | bit('W');
+constexpr std::uint32_t bit(char letter) { return letter_bit(letter); }
 constexpr std::uint32_t polar_letters = bit('@') | bit('^');
 
 std::uint32_t letters_of(const char* words) {
@@ -58,8 +56,9 @@ bool BlockExecutor::evaluate() {
 bool BlockExecutor::settings() {
   if (block_.settings.empty()) return true;
   Parameters& parameters = run_.session.parameters;
-  std::vector<std::pair<int, double>> numbered;
-  std::vector<std::pair<std::int32_t, double>> named;
+  // A line has room for no more settings than this: each takes four characters.
+  std::array<std::pair<std::int32_t, double>, 64> set;  // number, or -1 - name
+  std::size_t count = 0;
   std::optional<Fault> fault;
   for (const Setting& setting : block_.settings) {
     const auto value = interp::evaluate(setting.value, block_.code, parameters, fault);
@@ -74,7 +73,7 @@ bool BlockExecutor::settings() {
                        "> can't be set; use a name of your own");
         return false;
       }
-      named.emplace_back(setting.name, *value);
+      set[count++] = {-1 - setting.name, *value};
       continue;
     }
     const auto target = interp::evaluate(setting.target, block_.code, parameters, fault);
@@ -95,10 +94,15 @@ bool BlockExecutor::settings() {
           "#" + std::to_string(*index) + " follows from the machine's state and can't be set");
       return false;
     }
-    numbered.emplace_back(*index, *value);
+    set[count++] = {*index, *value};
   }
-  for (const auto& [index, value] : numbered) parameters.write(index, value);
-  for (const auto& [name, value] : named) parameters.write_named(name, value);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [target, value] = set[i];
+    if (target >= 0)
+      parameters.write(target, value);
+    else
+      parameters.write_named(-1 - target, value);
+  }
   return true;
 }
 

@@ -189,15 +189,36 @@ bool Machine::parameter(const Instruction& at) {
   }
 }
 
+// The common ones stand first; the rest goes by its family.
 bool Machine::step(const Instruction& at) {
-  if (at.op == Op::number) {
-    push(at.number);
-    return true;
+  switch (at.op) {
+    case Op::number:
+      push(at.number);
+      return true;
+    case Op::read:
+      return read(at, at.id);
+    case Op::less: {
+      const double b = pop();
+      top() = top() < b ? 1 : 0;
+      return true;
+    }
+    case Op::add: {
+      const double b = pop();
+      top() += b;
+      break;
+    }
+    case Op::multiply: {
+      const double b = pop();
+      top() *= b;
+      break;
+    }
+    default: {
+      const bool is_parameter = at.op > Op::read && at.op <= Op::exists_named;
+      const bool is_binary = (at.op >= Op::power && at.op <= Op::xor_) || at.op == Op::atan;
+      const bool ok = is_parameter ? parameter(at) : is_binary ? binary(at) : unary(at);
+      if (!ok) return false;
+    }
   }
-  const bool is_parameter = at.op >= Op::read && at.op <= Op::exists_named;
-  const bool is_binary = (at.op >= Op::power && at.op <= Op::xor_) || at.op == Op::atan;
-  const bool ok = is_parameter ? parameter(at) : is_binary ? binary(at) : unary(at);
-  if (!ok) return false;
   if (!std::isfinite(top()))
     return fail(at, "the result is not a finite number; keep it below 1e308");
   return true;

@@ -107,7 +107,9 @@ FlowIndex::FlowIndex(std::string_view text, std::uint64_t begin, bool block_dele
     bool deleted = false;
     if (starts_with_o(line, deleted) && !(deleted && block_delete)) {
       block.clear();
-      if (!parse_line(line, parameters, table, block)) {
+      // A line whose condition can't be read still is what its keyword says.
+      parse_line(line, parameters, table, block);
+      if (block.oword.keyword != Keyword::none) {
         FlowEntry entry;
         entry.begin = begin;
         entry.after = extent.next;

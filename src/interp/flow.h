@@ -24,6 +24,7 @@ struct FlowEntry {
   int partner = -1;           ///< opener: its end. End, break, continue: the opener
   bool called_ahead = false;  ///< a sub that was called before its definition was passed
   bool passed = false;        ///< a sub whose definition was passed
+  Block* block = nullptr;     ///< its parsed line when that is kept
   const char* problem_kind = nullptr;
   std::string problem;  ///< what is wrong with it when it is reached
 };

@@ -56,6 +56,7 @@ void Interpreter::Impl::execute_oword(Block& block) {
   if (oword.entry < 0) oword.entry = flow_of(*frame.file).at(block.begin);
   const int at = oword.entry;
   if (at < 0) return;  // behind the end of a `%` program
+  if (&block != &scratch_) entry(at).block = &block;
   if (!entry_is_sound(at)) return;
   switch (oword.keyword) {
     case Keyword::none:
@@ -65,7 +66,7 @@ void Interpreter::Impl::execute_oword(Block& block) {
       return pass_sub(block, at);
     case Keyword::endsub:
     case Keyword::return_:
-      return leave_sub(block, at);
+      return leave_sub(block);
     case Keyword::call:
       return call(block);
     case Keyword::if_:
@@ -104,11 +105,23 @@ bool Interpreter::Impl::entry_is_sound(int at) {
   return opener && e.partner >= 0;
 }
 
+void Interpreter::Impl::report_at(const FlowEntry& where) {
+  SourceSpan at;
+  at.text = frames_.back().file->text;
+  at.begin = where.begin + where.place.begin;
+  at.length = where.place.length;
+  at.line = where.line;
+  if (!reported_.emplace(at.text, at.begin, where.problem_kind).second) return;
+  diagnostics_.error(where.problem_kind, at, where.problem);
+  if (!options_.keep_going) stop();
+}
+
 void Interpreter::Impl::jump_to(const FlowEntry& target) {
   Frame& frame = frames_.back();
   frame.at = target.begin;
   frame.line = target.line - 1;
   frame.last = nullptr;
+  frame.upcoming = target.block;
 }
 
 void Interpreter::Impl::jump_behind(const FlowEntry& target) {
@@ -116,6 +129,7 @@ void Interpreter::Impl::jump_behind(const FlowEntry& target) {
   frame.at = target.after;
   frame.line = target.line;
   frame.last = nullptr;
+  frame.upcoming = target.block ? target.block->following : nullptr;
 }
 
 std::optional<double> Interpreter::Impl::condition(Block& block) {
@@ -304,6 +318,11 @@ void Interpreter::Impl::pass_sub(Block& block, int at) {
            "the main program runs into a sub that it has called from before; end the main program "
            "with M2 before this line");
   sub.passed = true;
+  // A sub inside this one would come to light only in a call.
+  for (int inside = at + 1; inside < sub.partner; ++inside) {
+    const FlowEntry& other = entry(inside);
+    if (other.keyword == Keyword::sub && other.problem_kind) report_at(other);
+  }
   jump_behind(entry(sub.partner));
 }
 
@@ -431,7 +450,7 @@ bool Interpreter::Impl::enter_sub(ProgramFile& file, int at, const std::vector<d
   return true;
 }
 
-void Interpreter::Impl::leave_sub(Block& block, int at) {
+void Interpreter::Impl::leave_sub(Block& block) {
   const Frame& frame = frames_.back();
   if (frames_.size() == 1 || frame.fanuc) {
     return report("flow_syntax", block.oword.place,

@@ -37,6 +37,7 @@ struct Frame {
   std::uint64_t at = 0;       ///< byte offset of the next line
   std::uint32_t line = 0;     ///< number of the line before it
   Block* last = nullptr;      ///< cached block that was executed last
+  Block* upcoming = nullptr;  ///< the next line after a jump, when its block is known
   int sub = -1;               ///< entry of the sub
   bool fanuc = false;         ///< M98
   std::uint64_t repeats = 1;  ///< M98 L: passes still to do with this one
@@ -82,6 +83,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void end_of_file();
   void execute(Block& block);
   void execute_words(Block& block);
+  bool plain_move(Block& block);
   bool count_block();
   void stop() { done_ = true; }
 
@@ -99,6 +101,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   bool next_pass(Loop& loop);
   Loop* loop_at(int at);
   bool entry_is_sound(int at);
+  void report_at(const FlowEntry& where);
   void loop_limit(const Frame& frame, const std::string& which);
   std::string tested_values(const Frame& frame, const FlowEntry& head);
   void jump_to(const FlowEntry& entry);
@@ -109,7 +112,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void call_fanuc(const FlowRequest& request);
   bool enter_sub(ProgramFile& file, int at, const std::vector<double>* arguments, std::string what);
   void pass_sub(Block& block, int at);
-  void leave_sub(Block& block, int at);
+  void leave_sub(Block& block);
   void return_fanuc();
   void return_from_call();
   ProgramFile* find_file_with_sub(const std::string& name);

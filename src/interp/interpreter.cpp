@@ -1,5 +1,6 @@
 // The loop over the lines: fetch, execute, keep or forget.
 #include <algorithm>
+#include <utility>
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
@@ -66,6 +67,7 @@ void Interpreter::Impl::parse_into(Frame& frame, Block& block) {
 // A line that is executed again and again is parsed once. Such blocks are chained, so that going
 // on to the next line needs no search.
 Block* Interpreter::Impl::parse_cached(Frame& frame) {
+  if (Block* known = std::exchange(frame.upcoming, nullptr)) return known;
   if (frame.last && frame.last->following && frame.last->next_begin == frame.at)
     return frame.last->following;
   auto& blocks = frame.file->blocks;
@@ -189,7 +191,70 @@ void Interpreter::Impl::run_block(BlockRun& run, Block& block) {
   BlockExecutor(run, block).execute(frame.file->text->content().substr(block.begin, block.length));
 }
 
+// The line that programs are made of: G0 or G1 (given or modal) with axis words and nothing else,
+// in a state in which nothing about it can go wrong. It needs no copy of the state. Everything else
+// takes the way through the table, which gives the same for this line.
+bool Interpreter::Impl::plain_move(Block& block) {
+  if (!block.plain_move || block.words.empty()) return false;
+  ModalState& s = state_;
+  int motion = s.motion;
+  if (block.has_rules)
+    for (const Word& word : block.words)
+      if (word.rule) motion = word.rule->code;
+  const bool feeds = motion == 10;
+  if (motion != 0 && !feeds) return false;
+  if (!block.has_rules && !(block.letters & axis_letters)) return false;
+  if (feeds && (s.feed <= 0 || s.feed_mode != canon::FeedMode::per_minute)) return false;
+  if (s.comp.side != CompSide::off || s.comp.leaving || s.rotation != 0 || s.nurbs_points > 0 ||
+      s.lathe_diameter || failed_)
+    return false;
+  AxisValues tip = s.tip;
+  const double unit = s.unit_mm();
+  std::optional<Fault> fault;
+  for (Word& word : block.words) {
+    if (word.rule) continue;
+    const Axis axis = *axis_of_letter(word.letter);
+    if (!options_.axes.empty() && !options_.axes.has(axis)) return false;
+    double number = word.number;
+    if (!word.text.constant()) {
+      const auto value = evaluate(word.text, block.code, parameters_, fault);
+      if (!value) return false;
+      number = *value;
+    }
+    const double value = number * (is_rotary(axis) ? radian_per_degree : unit);
+    tip[axis] = s.incremental ? tip[axis] + value : value + s.g92[axis] + s.work_offset[axis];
+  }
+  canon::Command& command = queue_.emplace_back();
+  if (feeds)
+    command.action = canon::LinearFeed{tip};
+  else
+    command.action = canon::Rapid{tip};
+  command.span = span();
+  command.block = block_number();
+  s.tip = tip;
+  s.motion = motion;
+  s.cycle.code = 0;
+  s.spline.valid = false;
+  idle_blocks_ = 0;
+  return true;
+}
+
 void Interpreter::Impl::execute_words(Block& block) {
+  if (plain_move(block)) return;
+  if (block.words.empty() && !block.comment) {  // settings alone leave the modal state as it is
+    BlockRun run(session_, block, state_, *this, queue_);
+    BlockExecutor(run, block).execute({});
+    if (run.ok()) {
+      parameters_.commit();
+      if (failed_) {
+        next_ = state_;
+        clear_unsure(block, state_.tip);
+      }
+      return;
+    }
+    report(*run.fault());
+    return remember_failure(block);
+  }
   next_ = state_;
   const std::size_t first = queue_.size();
   const bool comp_active = state_.comp.side != CompSide::off || state_.comp.leaving;

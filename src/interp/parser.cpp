@@ -198,6 +198,7 @@ bool LineParser::comment() {
   if (at >= line.size())
     return fail("bad_comment", begin, static_cast<std::uint32_t>(line.size()) - begin,
                 "the comment is not closed; add ')' on the same line");
+  out_.plain_move = false;
   out_.comment = Comment{{begin, at - begin + 1}, begin + 1, at - begin - 1};
   in_.go_to(at + 1);
   return true;
@@ -238,6 +239,10 @@ bool LineParser::add_word(Word& word) {
                   std::string("a second ") + word.letter + " word on this line; one is allowed");
     slot = static_cast<std::int8_t>(out_.words.size());
   }
+  const std::uint32_t bit = letter_bit(word.letter);
+  const bool plain_g = word.rule && word.letter == 'G' && word.rule->code <= 10 && g_groups_ == 1;
+  if (!(bit & axis_letters) && !plain_g) out_.plain_move = false;
+  out_.letters |= bit;
   if (word.text.constant())
     word.number = word.text.number;
   else
@@ -262,6 +267,7 @@ bool LineParser::setting() {
     return fail_here("bad_expression",
                      "'=' is missing; a parameter is set as in #1=5 or #<name>=[#1+1]");
   if (!value(setting.value)) return false;
+  out_.plain_move = false;
   out_.settings.push_back(setting);
   return true;
 }
@@ -384,6 +390,10 @@ bool LineParser::climb(int level) {
 bool LineParser::function(std::uint32_t begin) {
   for (const Function& known : functions) {
     if (!in_.accept_word(known.name)) continue;
+    if (is_letter(in_.peek())) {  // the beginning of another name
+      in_.go_to(begin);
+      continue;
+    }
     const Place place{begin, in_.length_since(begin)};
     if (in_.peek() != '[')
       return fail_from(
@@ -617,6 +627,8 @@ void Block::clear() {
   block_delete = false;
   empty = true;
   has_rules = false;
+  plain_move = true;
+  letters = 0;
   has_expressions = false;
   words.clear();
   slot.fill(-1);
