@@ -15,6 +15,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 // EQ NE GE LE compare within this absolute band, GT and LT do not (as the reference).
+constexpr const char* not_finite = "the result is not a finite number; keep it below 1e308";
 constexpr double equality_band = 1e-4;
 
 struct Machine {
@@ -101,15 +102,6 @@ bool Machine::binary(const Instruction& at) {
   double& a = top();
   const auto truth = [](bool yes) { return yes ? 1.0 : 0.0; };
   switch (at.op) {
-    case Op::add:
-      a += b;
-      return true;
-    case Op::subtract:
-      a -= b;
-      return true;
-    case Op::multiply:
-      a *= b;
-      return true;
     case Op::divide:
       if (b == 0) return fail(at, "division by zero; the divisor must not be 0");
       a /= b;
@@ -136,9 +128,6 @@ bool Machine::binary(const Instruction& at) {
     case Op::greater:
       a = truth(a > b);
       return true;
-    case Op::less:
-      a = truth(a < b);
-      return true;
     case Op::greater_equal:
       a = truth(a >= b);
       return true;
@@ -164,8 +153,6 @@ bool Machine::binary(const Instruction& at) {
 
 bool Machine::parameter(const Instruction& at) {
   switch (at.op) {
-    case Op::read:
-      return read(at, at.id);
     case Op::read_indirect: {
       const double number = pop();
       const auto index = as_integer(number);
@@ -189,39 +176,13 @@ bool Machine::parameter(const Instruction& at) {
   }
 }
 
-// The common ones stand first; the rest goes by its family.
 bool Machine::step(const Instruction& at) {
-  switch (at.op) {
-    case Op::number:
-      push(at.number);
-      return true;
-    case Op::read:
-      return read(at, at.id);
-    case Op::less: {
-      const double b = pop();
-      top() = top() < b ? 1 : 0;
-      return true;
-    }
-    case Op::add: {
-      const double b = pop();
-      top() += b;
-      break;
-    }
-    case Op::multiply: {
-      const double b = pop();
-      top() *= b;
-      break;
-    }
-    default: {
-      const bool is_parameter = at.op > Op::read && at.op <= Op::exists_named;
-      const bool is_binary = (at.op >= Op::power && at.op <= Op::xor_) || at.op == Op::atan;
-      const bool ok = is_parameter ? parameter(at) : is_binary ? binary(at) : unary(at);
-      if (!ok) return false;
-    }
-  }
-  if (!std::isfinite(top()))
-    return fail(at, "the result is not a finite number; keep it below 1e308");
-  return true;
+  if (at.op == Op::read) return read(at, at.id);
+  const bool is_parameter = at.op > Op::read && at.op <= Op::exists_named;
+  const bool is_binary = (at.op >= Op::power && at.op <= Op::xor_) || at.op == Op::atan;
+  const bool ok = is_parameter ? parameter(at) : is_binary ? binary(at) : unary(at);
+  if (!ok) return false;
+  return std::isfinite(top()) || fail(at, not_finite);
 }
 
 }  // namespace
@@ -230,9 +191,56 @@ std::optional<double> evaluate(const Value& value, const Code& code, const Param
                                std::optional<Fault>& fault) {
   if (value.constant()) return value.number;
   Machine machine(parameters, fault);
-  for (std::uint32_t i = 0; i < value.count; ++i)
-    if (!machine.step(code[value.first + i])) return std::nullopt;
-  return machine.pop();
+  const Instruction* at = code.data() + value.first;
+  const Instruction* const end = at + value.count;
+  double* top = machine.stack.data() - 1;
+  // What loops are made of is done here; the rest by the machine, which sees the same stack.
+  for (; at != end; ++at) {
+    switch (at->op) {
+      case Op::number:
+        *++top = at->number;
+        continue;
+      case Op::read:
+        if (at->id >= 1 && at->id < number::absolute_position) {
+          *++top = parameters.stored(at->id);
+          continue;
+        }
+        break;
+      case Op::less:
+        --top;
+        top[0] = top[0] < top[1] ? 1 : 0;
+        continue;
+      case Op::add:
+        --top;
+        top[0] += top[1];
+        if (std::isfinite(*top)) continue;
+        break;
+      case Op::subtract:
+        --top;
+        top[0] -= top[1];
+        if (std::isfinite(*top)) continue;
+        break;
+      case Op::multiply:
+        --top;
+        top[0] *= top[1];
+        if (std::isfinite(*top)) continue;
+        break;
+      default: {
+        machine.depth = static_cast<std::size_t>(top + 1 - machine.stack.data());
+        if (!machine.step(*at)) return std::nullopt;
+        top = machine.stack.data() + machine.depth - 1;
+        continue;
+      }
+    }
+    if (at->op != Op::read) {
+      machine.fail(*at, not_finite);
+      return std::nullopt;
+    }
+    machine.depth = static_cast<std::size_t>(top + 1 - machine.stack.data());
+    if (!machine.step(*at)) return std::nullopt;
+    top = machine.stack.data() + machine.depth - 1;
+  }
+  return *top;
 }
 
 std::optional<int> as_integer(double value) {
