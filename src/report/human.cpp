@@ -112,11 +112,10 @@ std::string summary_text(const RunReport& report, const std::vector<Message>& al
   out += " (" + plural(errors, "error") + ", " + plural(warnings, "warning") + ")\n";
   if (options.quiet) return out;
 
-  if (!report.units.empty())
+  if (report.units.size() > 1)
     out += programs_text(report);
   else
-    for (const Input& input : report.inputs)
-      if (input.role == "program") out += "  program  " + printable(input.path) + ": ";
+    out += "  program  " + printable(units_of(report).front().program) + ": ";
   out += plural(s.blocks, "block") + ", " + plural(s.moves, "move");
   if (report.machine.empty() || !report.units.empty()) return out + "\n";
   out += ", " + clock(s.cycle_time) + " (feed " + clock(s.feed_time) + ", rapid " +
