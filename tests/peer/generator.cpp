@@ -581,10 +581,10 @@ class Generator {
       case 2:
         add("G33.1 Z" + decimal(-20, 0) + " K" + decimal(1, 3) + (one_in(3) ? " I2" : ""));
         break;
-      case 3:
+      case 3:  // depths that no pass meets exactly, where rounding decides on their number
         add("G0 X12 Z3");
         add("G76 P" + decimal(1, 2) + " Z" + decimal(-30, -10) + " I" + pick({"-2", "-1", "3"}) +
-            " J0." + std::to_string(2 + below(5)) + " K" + pick({"0.9", "1.2", "1"}) +
+            " J0." + std::to_string(2 + below(5)) + " K" + pick({"0.93", "1.27", "1.01"}) +
             (one_in(2) ? " R" + pick({"1", "1.5", "2"}) : "") +
             (one_in(2) ? " Q" + pick({"29.5", "30", "0"}) : "") +
             (one_in(2) ? " H" + std::to_string(below(3)) : "") +
@@ -673,7 +673,6 @@ class Generator {
               "G10 L20 P1 X1 R1",
               "G10 L1 P1",
               "G1 @5 X1",
-              "G18 G1 @5 ^5",
               "o1 endif",
               "o5 call",
               "G61 G64",
