@@ -1,8 +1,6 @@
 // The program as a user calls it: exit codes, messages, files.
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
-#include <sys/wait.h>
 
 #include <cmath>
 #include <cstdio>
@@ -11,6 +9,7 @@
 #include <map>
 #include <sstream>
 
+#include "cli/program.h"
 #include "interp/interp.h"
 #include "sim/sim.h"
 
@@ -19,45 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream out;
-  out << in.rdbuf();
-  return out.str();
-}
-
-struct Outcome {
-  int code = -1;
-  std::string out, err;
-  bool says(const std::string& text) const { return (out + err).find(text) != std::string::npos; }
-};
-
-class Cli : public ::testing::Test {
- protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "aircut-cli-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-  }
-  void TearDown() override {
-    fs::permissions(folder_, fs::perms::owner_all, fs::perm_options::add);
-    fs::remove_all(folder_);
-  }
-
-  Outcome aircut(const std::string& arguments, const std::string& input = "") {
-    put("stdin", input);
-    const std::string command =
-        "cd " AIRCUT_SOURCE_DIR " && timeout 120 " AIRCUT_BINARY_DIR "/bin/aircut " + arguments +
-        " <" + path("stdin") + " >" + path("stdout") + " 2>" + path("stderr");
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(path("stdout")),
-            text_of(path("stderr"))};
-  }
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-  void put(const std::string& name, const std::string& text) {
-    std::ofstream(path(name), std::ios::binary) << text;
-  }
-  fs::path folder_;
-};
+class Cli : public Program {};
 
 // ---- the main job ----------------------------------------------------------------------------
 
