@@ -172,6 +172,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   Statistics statistics_;
 };
 
+/// The label as a program writes it: `100` → o100, `pocket` → o<pocket>.
+std::string written_label(const std::string& label);
 /// Expands #123, #<name>, %d %f %.Nf in the text of a (DEBUG, …) (comments.cpp).
 std::string expand_message(std::string_view text, Parameters& parameters);
 /// Does what the comment of a line asks for.

@@ -77,14 +77,13 @@ void Interpreter::Impl::apply_settings() {
     bool done = false;
     if (is_setting) {
       const Setting& setting = block.settings.front();
-      const auto n = setting.name < 0 ? as_integer(setting.target.number) : std::nullopt;
-      if (setting.name >= 0 && !parameters_.read_only_name(setting.name)) {
-        parameters_.write_named(setting.name, value);
-        done = true;
-      } else if (n && setting.target.constant() && Parameters::in_range(*n) &&
-                 !Parameters::read_only(*n)) {
-        parameters_.write(*n, value);
-        done = true;
+      if (setting.name >= 0) {
+        done = !parameters_.read_only_name(setting.name);
+        if (done) parameters_.write_named(setting.name, value);
+      } else {
+        const int n = as_integer(setting.target.number).value_or(0);
+        done = setting.target.constant() && Parameters::in_range(n) && !Parameters::read_only(n);
+        if (done) parameters_.write(n, value);
       }
     }
     if (!done)

@@ -92,6 +92,7 @@ void spindle_orient(const CodeRule& rule, BlockRun& run) {
   if (!run.has('R'))
     return run.warning("word_ignored", run.place(rule),
                        "M19 without R does not move the spindle; give R, the angle");
+  run.state.spindles[static_cast<std::size_t>(*spindle)].turn = canon::SpindleTurn::stop;
   run.emit(canon::OrientSpindle{*spindle, *run.number('R') * radian_per_degree, direction});
 }
 

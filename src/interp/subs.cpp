@@ -1,0 +1,234 @@
+// Calls and returns: `o… call` with arguments, files of subs, and M98/M99.
+#include <algorithm>
+
+#include "base/text.h"
+#include "interp/codes/codes.h"
+#include "interp/impl.h"
+
+namespace aircut::interp {
+namespace {
+
+constexpr std::size_t max_files = 10'000;
+
+std::string folder_of(const std::string& path) {
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? std::string() : path.substr(0, slash + 1);
+}
+
+bool is_safe_name(const std::string& name) {
+  if (name.empty() || name[0] == '/' || name.find('\0') != std::string::npos) return false;
+  for (std::size_t at = 0; at <= name.size();) {
+    const std::size_t slash = std::min(name.find('/', at), name.size());
+    if (name.substr(at, slash - at) == "..") return false;
+    at = slash + 1;
+  }
+  return true;
+}
+
+}  // namespace
+
+// `100` → o100, `pocket` → o<pocket>.
+std::string written_label(const std::string& label) {
+  const bool plain = !label.empty() && (label[0] == '[' || label[0] == '#' ||
+                                        std::all_of(label.begin(), label.end(),
+                                                    [](char c) { return c >= '0' && c <= '9'; }));
+  return plain ? "o" + label : "o<" + label + ">";
+}
+
+void Interpreter::Impl::pass_sub(Block& block, int at) {
+  FlowEntry& sub = entry(at);
+  if (sub.called_ahead)
+    report("sub_reached", block.oword.place,
+           "the main program runs into a sub that it has called from before; end the main program "
+           "with M2 before this line");
+  sub.passed = true;
+  // A sub inside this one would come to light only in a call.
+  for (int inside = at + 1; inside < sub.partner; ++inside) {
+    const FlowEntry& other = entry(inside);
+    if (other.keyword == Keyword::sub && other.problem_kind) report_at(other);
+  }
+  jump_behind(entry(sub.partner));
+}
+
+std::optional<std::string> Interpreter::Impl::label_of(const Block& block) {
+  const OWord& oword = block.oword;
+  if (!oword.computed) return oword.label;
+  std::optional<Fault> fault;
+  const auto value = evaluate(*oword.computed, block.code, parameters_, fault);
+  if (!value) {
+    report(*fault);
+    return std::nullopt;
+  }
+  const auto number = as_integer(*value);
+  if (!number || *number < 0) {
+    report("bad_label", oword.place,
+           "the number of an O-word must be an integer of 0 or more, this is " + shortest(*value));
+    return std::nullopt;
+  }
+  return std::to_string(*number);
+}
+
+std::optional<std::vector<double>> Interpreter::Impl::arguments_of(const Block& block) {
+  std::vector<double> values;
+  std::optional<Fault> fault;
+  for (const Value& argument : block.oword.arguments) {
+    const auto value = evaluate(argument, block.code, parameters_, fault);
+    if (!value) {
+      report(*fault);
+      return std::nullopt;
+    }
+    values.push_back(*value);
+  }
+  return values;
+}
+
+// Among the texts that are open: this one first, then in the order in which they were opened.
+ProgramFile* Interpreter::Impl::find_file_with_sub(const std::string& name) {
+  ProgramFile* here = frames_.back().file;
+  if (flow_of(*here).find_sub(name) >= 0) return here;
+  ProgramFile* main = frames_.front().file;
+  if (flow_of(*main).find_sub(name) >= 0) return main;
+  for (ProgramFile* file : opened_order_)
+    if (flow_of(*file).find_sub(name) >= 0) return file;
+  return nullptr;
+}
+
+ProgramFile* Interpreter::Impl::open_sub_file(const std::string& name, Place place) {
+  if (!is_safe_name(name)) {
+    report("path_refused", place,
+           "the name of a sub's file can't be an absolute path or contain '..'; put the file into "
+           "the program's folder or the sub path");
+    return nullptr;
+  }
+  std::vector<std::string> folders = {folder_of(frames_.front().file->text->name())};
+  for (const std::string& folder : options_.sub_path)
+    folders.push_back(folder.empty() || folder.back() == '/' ? folder : folder + "/");
+  if (opened_order_.size() >= max_files) {
+    report("limit_reached", place, "more than 10000 files of subs were opened");
+    statistics_.limit_reached = true;
+    stop();
+    return nullptr;
+  }
+  for (const std::string& folder : folders) {
+    if (!reader_) break;
+    const auto text = reader_(folder + name + ".ngc");
+    if (!text) continue;
+    ProgramFile& file = file_for(**text);
+    opened_order_.push_back(&file);
+    if (file.text->content().starts_with("\xef\xbb\xbf")) file.begin = 3;
+    find_percent(file);
+    if (flow_of(file).find_sub(name) >= 0) return &file;
+    report("sub_missing", place,
+           "the file '" + printable(file.text->name()) + "' has no '" +
+               written_label(printable(name)) + " sub'; the sub must have the name of its file");
+    return nullptr;
+  }
+  report("sub_missing", place,
+         "there is no sub " + written_label(printable(name)) + " in this program and no file '" +
+             printable(name) + ".ngc' in its folder or the sub path");
+  return nullptr;
+}
+
+void Interpreter::Impl::call(Block& block) {
+  const auto label = label_of(block);
+  if (!label) return;
+  const auto arguments = arguments_of(block);
+  if (!arguments) return;
+  ProgramFile* file = find_file_with_sub(*label);
+  if (!file) file = open_sub_file(*label, block.oword.place);
+  if (!file) return;
+  const int at = file->flow->find_sub(*label);
+  FlowEntry& sub = file->flow->entries[static_cast<std::size_t>(at)];
+  if (sub.problem_kind) {
+    report(sub.problem_kind, block.oword.place, sub.problem);
+    return;
+  }
+  if (!sub.passed && file == frames_.front().file) sub.called_ahead = true;
+  std::string what = written_label(*label) + " call";
+  for (const double value : *arguments) what += " [" + shortest(value) + "]";
+  enter_sub(*file, at, &*arguments, std::move(what));
+}
+
+bool Interpreter::Impl::enter_sub(ProgramFile& file, int at, const std::vector<double>* arguments,
+                                  std::string what) {
+  if (static_cast<int>(frames_.size()) > options_.limits.max_depth) {
+    report("call_depth", {0, block_->length},
+           "more than " + std::to_string(options_.limits.max_depth) +
+               " calls inside each other; does the recursion end?");
+    statistics_.limit_reached = true;
+    stop();
+    return false;
+  }
+  const FlowEntry& sub = file.flow->entries[static_cast<std::size_t>(at)];
+  auto call = std::make_shared<CallFrame>();
+  call->site = span();
+  call->what = std::move(what);
+  Frame frame;
+  frame.file = &file;
+  frame.at = sub.after;
+  frame.line = sub.line;
+  frame.sub = at;
+  frame.calls = std::move(call);
+  frames_.push_back(std::move(frame));
+  parameters_.enter(arguments);
+  return true;
+}
+
+void Interpreter::Impl::leave_sub(Block& block) {
+  const Frame& frame = frames_.back();
+  if (frames_.size() == 1 || frame.fanuc) {
+    return report("flow_syntax", block.oword.place,
+                  frame.fanuc ? "a sub called with M98 ends with M99"
+                              : "return and endsub work inside a sub only");
+  }
+  // The value may be made of the last one, so that is forgotten only now.
+  std::optional<double> value;
+  if (!block.oword.arguments.empty()) value = condition(block);
+  value_ = value.value_or(0);
+  value_returned_ = value.has_value();
+  return_from_call();
+}
+
+void Interpreter::Impl::return_from_call() {
+  Frame& frame = frames_.back();
+  if (frame.restore_at_return && frame.saved) {
+    BlockRun run(session_, *block_, state_, *this, queue_);
+    restore_state(run, *frame.saved);
+    parameters_.commit();
+  }
+  parameters_.leave();
+  frames_.pop_back();
+  span_valid_ = false;
+}
+
+void Interpreter::Impl::call_fanuc(const FlowRequest& request) {
+  const std::string label = std::to_string(request.label);
+  ProgramFile& file = *frames_.back().file;
+  FlowIndex& flow = flow_of(file);
+  const int at = flow.find_fanuc(label, block_->begin);
+  const Place place = block_->find('P') ? block_->find('P')->place : Place{0, block_->length};
+  if (at < 0) {
+    if (flow.find_sub(label) >= 0)
+      return report("flow_syntax", place,
+                    "M98 can't call o" + label + " sub; use o" + label + " call");
+    return report("sub_missing", place,
+                  "there is no sub O" + label + " in this program; it begins with O" + label +
+                      " and ends with M99");
+  }
+  if (request.repeats == 0) return;
+  if (!enter_sub(file, at, nullptr, "M98 P" + label)) return;
+  frames_.back().fanuc = true;
+  frames_.back().repeats = request.repeats;
+}
+
+void Interpreter::Impl::return_fanuc() {
+  Frame& frame = frames_.back();
+  if (frame.repeats > 1) {
+    --frame.repeats;
+    frame.loops.clear();
+    return jump_behind(entry(frame.sub));
+  }
+  return_from_call();
+}
+
+}  // namespace aircut::interp
