@@ -47,7 +47,8 @@ std::optional<Vec3> deep_point(const BoxTree& tree, const TriangleMesh& mesh, co
 }  // namespace
 
 CollisionMesh::Impl::Impl(const TriangleMesh& source) {
-  const TriangleMesh mesh = welded(source);
+  mesh_ = welded(source);
+  const TriangleMesh& mesh = mesh_;
   if (mesh.empty()) return;
   box = bounds(mesh);
   centre = box.center();
@@ -64,6 +65,11 @@ CollisionMesh::Impl::Impl(const TriangleMesh& source) {
   for (const Shell& shell : parts)
     if (shell.closed)
       if (const auto point = deep_point(*tree, mesh, shell)) deep_points.push_back(*point);
+}
+
+const FclTree& CollisionMesh::Impl::fcl() const {
+  std::call_once(fcl_once_, [this] { fcl_ = std::make_unique<FclTree>(mesh_); });
+  return *fcl_;
 }
 
 CollisionMesh::CollisionMesh(const TriangleMesh& mesh) : impl_(std::make_unique<Impl>(mesh)) {}
@@ -117,13 +123,8 @@ Distance distance(const CollisionMesh& a, const Pose& X_WA, const CollisionMesh&
 bool overlap(const CollisionMesh& a, const Pose& X_WA, const CollisionMesh& b, const Pose& X_WB) {
   if (!a.impl().tree || !b.impl().tree) return false;
   const Pose X_AB = X_WA.inverse() * X_WB;
-  bool meets = false;
-  for_near_pairs(TreePair(*a.impl().tree, *b.impl().tree, X_AB), 0,
-                 [&](const Triangle& ta, const Triangle& tb) {
-                   meets = closest_points(ta, tb).squared == 0;
-                   return !meets;
-                 });
-  return meets || contained_point(a, b, X_AB).has_value();
+  return surfaces_meet(a.impl().fcl(), b.impl().fcl(), X_AB) ||
+         contained_point(a, b, X_AB).has_value();
 }
 
 }  // namespace aircut::collide

@@ -2,10 +2,12 @@
 // collide library.
 #pragma once
 
+#include <mutex>
 #include <vector>
 
 #include "collide/box_tree.h"
 #include "collide/collide.h"
+#include "collide/fcl_tree.h"
 
 namespace aircut::collide {
 
@@ -13,6 +15,8 @@ struct CollisionMesh::Impl {
   explicit Impl(const TriangleMesh& mesh);
 
   std::optional<BoxTree> tree;  ///< nothing for a mesh without triangles
+  /// FCL's tree, built when an overlap is first asked for: most bodies never come that near.
+  const FclTree& fcl() const;
   Box3 box;
   Vec3 centre = Vec3::Zero();
   double radius = 0;
@@ -21,6 +25,11 @@ struct CollisionMesh::Impl {
   std::vector<Vec3> shell_points;
   /// A point well inside the material for each closed shell that has one.
   std::vector<Vec3> deep_points;
+
+ private:
+  TriangleMesh mesh_;
+  mutable std::once_flag fcl_once_;
+  mutable std::unique_ptr<const FclTree> fcl_;
 };
 
 /// Lower bound of the distance from boxes and spheres alone, mm.

@@ -154,6 +154,9 @@ void Document::parse() {
     return refuse({.text = text, .line = 1}, "the file is larger than 16 MB");
   if (const auto deep = too_deep_key(*text))
     return refuse(*deep, "a dotted key has more than 16 parts; the deepest key has 3");
+  if (const auto stray = stray_character(*text))
+    return refuse(*stray, "this is not TOML: '" + printable(stray->covered()) +
+                              "' may stand only in strings (in quotes) and comments");
   try {
     root = toml::parse(text->content(), std::string_view());
     parsed = true;

@@ -103,4 +103,48 @@ std::optional<SourceSpan> too_deep_key(const SourceText& text) {
   return std::nullopt;
 }
 
+std::optional<SourceSpan> stray_character(const SourceText& text) {
+  const std::string_view all = text.content();
+  std::uint32_t line = 1;
+  std::size_t i = all.starts_with("\xef\xbb\xbf") ? 3 : 0;  // a byte order mark is allowed
+  // Skips to behind the next `close`, or to the end of the line (or the text when `lines`).
+  const auto skip_string = [&](std::string_view close, bool escapes, bool lines) {
+    for (i += close.size(); i < all.size(); ++i) {
+      if (all[i] == '\n') {
+        if (!lines) return;
+        ++line;
+      } else if (escapes && all[i] == '\\' && i + 1 < all.size() && all[i + 1] != '\n') {
+        ++i;
+      } else if (all.substr(i, close.size()) == close) {
+        i += close.size();
+        return;
+      }
+    }
+  };
+  while (i < all.size()) {
+    const char c = all[i];
+    if (c == '#') {
+      while (i < all.size() && all[i] != '\n') ++i;
+    } else if (all.substr(i, 3) == "\"\"\"") {
+      skip_string("\"\"\"", true, true);
+    } else if (all.substr(i, 3) == "'''") {
+      skip_string("'''", false, true);
+    } else if (c == '"') {
+      skip_string("\"", true, false);
+    } else if (c == '\'') {
+      skip_string("'", false, false);
+    } else if (static_cast<unsigned char>(c) >= 0x80) {
+      std::uint32_t length = 1;
+      while (i + length < all.size() &&
+             (static_cast<unsigned char>(all[i + length]) & 0xc0) == 0x80)
+        ++length;
+      return SourceSpan{.text = &text, .begin = i, .length = length, .line = line};
+    } else {
+      if (c == '\n') ++line;
+      ++i;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace aircut::config

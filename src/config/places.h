@@ -1,6 +1,9 @@
 // Places of toml++ (line and column in characters) as byte ranges of the text.
 #pragma once
 
+// The library's own checks abort on malformed input such as `[[!x]]`, although the code behind them
+// reports it well.
+#define TOML_ASSERT(expression) static_cast<void>(0)
 #include <toml++/toml.h>
 
 #include <optional>
@@ -33,5 +36,9 @@ class Places {
 /// The place of a key that is nested deeper than any file of ours, if there is one. Such keys
 /// (`a.a.a.…`) would make the parser's tables so deep that freeing them overflows the stack.
 std::optional<SourceSpan> too_deep_key(const SourceText& text);
+
+/// The place of a character outside of ASCII that is in no string and no comment, if there is one.
+/// TOML allows none there, and toml++ 3.3.0 has undefined behaviour for some of them.
+std::optional<SourceSpan> stray_character(const SourceText& text);
 
 }  // namespace aircut::config

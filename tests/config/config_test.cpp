@@ -204,5 +204,20 @@ TEST(Config, AByteOrderMarkAndCrLfAreRead) {
             Told{"2:5 'b' needs a finite number; inf and nan are not allowed"});
 }
 
+TEST(Config, CharactersOutsideOfAsciiStandInTextsAndCommentsOnly) {
+  const SourceText good("m.toml", "# 90°\na = \"é \\\" ü\" # ß\nb = 'ö' \nc = \"\"\"\nä\n\"\"\"\n");
+  Reader reader(good, "machine_invalid");
+  reader.top().text("a");
+  reader.top().text("b");
+  reader.top().text("c");
+  EXPECT_EQ(told(reader.finish()), Told{});
+
+  const SourceText bad("m.toml", "a = \"°\"\nangle = 90°\n");
+  Reader other(bad, "machine_invalid");
+  other.top();
+  EXPECT_EQ(told(other.finish()),
+            Told{"2:11 this is not TOML: '°' may stand only in strings (in quotes) and comments"});
+}
+
 }  // namespace
 }  // namespace aircut::config
