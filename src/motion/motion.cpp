@@ -8,21 +8,45 @@
 #include "motion/motion.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace aircut::motion {
 
 using machine::ReachError;
 using machine::Target;
 
+namespace {
+constexpr int steps = 8;  // of the anchors: 45° of a full turn
+}  // namespace
+
 JointMotion::JointMotion(const machine::Machine& machine, const plan::Segment& segment,
                          JointVector near)
-    : machine_(&machine), segment_(&segment), near_(std::move(near)) {}
+    : machine_(&machine), segment_(&segment) {
+  anchors_.push_back(std::move(near));
+  const double length = plan::length(segment.path);
+  if (!(length > 0)) return;
+  anchors_.reserve(steps + 1);
+  for (int i = 1; i <= steps; ++i) {
+    const AxisValues tip = plan::evaluate(segment.path, length * i / steps).p;
+    auto q = machine.kinematics().inverse(Target{tip, segment.tool_offset}, anchors_.back());
+    // The planner made sure that this can't be; at() will tell, should it be so.
+    anchors_.push_back(q ? std::move(*q) : anchors_.back());
+  }
+}
+
+JointVector JointMotion::near_at(double s) const {
+  if (anchors_.size() == 1) return anchors_.front();
+  const double step = std::floor(s / plan::length(segment_->path) * steps);
+  return anchors_[static_cast<std::size_t>(std::clamp(step, 0.0, double{steps}))];
+}
 
 double JointMotion::t0() const { return segment_->t_start; }
 double JointMotion::t1() const { return segment_->t_end(); }
 
 tl::expected<JointVector, ReachError> JointMotion::at(double t) const {
-  return machine_->kinematics().inverse(Target{tip_at(t), segment_->tool_offset}, near_);
+  const double s = segment_->profile.at(t - segment_->t_start).s;
+  const AxisValues tip = plan::evaluate(segment_->path, s).p;
+  return machine_->kinematics().inverse(Target{tip, segment_->tool_offset}, near_at(s));
 }
 
 AxisValues JointMotion::tip_at(double t) const {
@@ -38,13 +62,13 @@ tl::expected<JointState, ReachError> JointMotion::state_at(double t) const {
   out.tip = p.p;
   out.s = s;
   if (v == 0 && a == 0) {
-    auto q = machine_->kinematics().inverse(target, near_);
+    auto q = machine_->kinematics().inverse(target, near_at(s));
     if (!q) return unexpected(q.error());
     out.q = std::move(*q);
     out.v = out.a = JointVector::Zero(out.q.size());
     return out;
   }
-  auto joint = plan::joint_point(machine_->kinematics(), target, p.d, p.dd, near_);
+  auto joint = plan::joint_point(machine_->kinematics(), target, p.d, p.dd, near_at(s));
   if (!joint) return unexpected(joint.error());
   out.q = std::move(joint->q);
   out.v = v * joint->dq;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "machine/machine.h"
 #include "plan/plan.h"
@@ -42,7 +43,11 @@ class JointMotion {
  private:
   const machine::Machine* machine_;
   const plan::Segment* segment_;
-  JointVector near_;
+  JointVector near_at(double s) const;
+
+  /// Joints at even steps along the path, each found from the one before: on long moves the joints
+  /// at the start say nothing about the turn or branch at the end.
+  std::vector<JointVector> anchors_;
 };
 
 }  // namespace aircut::motion

@@ -11,13 +11,14 @@ namespace {
 
 using namespace test;
 
-nlohmann::json vectors(const std::string& name) {
+/// By value: a range-for over a part of a temporary would dangle.
+nlohmann::json cases_of(const std::string& name) {
   std::ifstream in(std::string(AIRCUT_SOURCE_DIR) + "/tests/data/planner/" + name);
-  return nlohmann::json::parse(in);
+  return nlohmann::json::parse(in)["cases"];
 }
 
 TEST(SingleMove, TakesTheClosedFormsTime) {
-  for (const auto& c : vectors("planner-single.json")["cases"]) {
+  for (const auto& c : cases_of("planner-single.json")) {
     const double v = c["v_max"], a = c["a_max"], distance = c["distance_mm"];
     const auto machine = identity_machine("X", {{v, a}});
     Program program;
@@ -35,7 +36,7 @@ TEST(SingleMove, TakesTheClosedFormsTime) {
 }
 
 TEST(FeedRules, GiveTheTimesOfTheVectors) {
-  for (const auto& c : vectors("planner-feed-rules.json")["cases"]) {
+  for (const auto& c : cases_of("planner-feed-rules.json")) {
     const std::string letters = "XYZABC";
     std::vector<JointLimit> limits;
     for (const char l : letters) {
@@ -153,7 +154,7 @@ TEST(Feed, MustBeThere) {
 }
 
 TEST(Circle, IsWithinAThousandthOfTheNumericOptimum) {
-  for (const auto& c : vectors("planner-circle-joint-box.json")["cases"]) {
+  for (const auto& c : cases_of("planner-circle-joint-box.json")) {
     const double r = c["radius_mm"];
     const auto machine =
         identity_machine("XY", {{c["v_max"][0], c["a_max"][0]}, {c["v_max"][1], c["a_max"][1]}});

@@ -35,7 +35,8 @@ std::string text_of(const Planned& planned) {
 
 TEST(Corner, BlendsAreNoSlowerThanTheVectorsAndStayWithinP) {
   std::ifstream in(std::string(AIRCUT_SOURCE_DIR) + "/tests/data/planner/planner-corner.json");
-  for (const auto& c : nlohmann::json::parse(in)["cases"]) {
+  const nlohmann::json cases = nlohmann::json::parse(in)["cases"];
+  for (const auto& c : cases) {
     const double turn = c["turn_deg"].get<double>() * rad, p = c["tolerance_mm"];
     const double first = c["lengths_mm"][0], second = c["lengths_mm"][1];
     const auto machine =
