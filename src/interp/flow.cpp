@@ -12,6 +12,8 @@
 namespace aircut::interp {
 namespace {
 
+constexpr std::size_t max_open = 1000;  // the searches below go through all that is open
+
 const char* text_of(Keyword keyword) {
   switch (keyword) {
     case Keyword::sub:
@@ -134,9 +136,8 @@ int FlowIndex::at(std::uint64_t begin) const {
 }
 
 int FlowIndex::find_sub(std::string_view label) const {
-  for (std::size_t i = 0; i < entries.size(); ++i)
-    if (entries[i].keyword == Keyword::sub && entries[i].label == label) return static_cast<int>(i);
-  return -1;
+  const auto found = subs_.find(label);
+  return found == subs_.end() ? -1 : found->second;
 }
 
 int FlowIndex::find_fanuc(std::string_view label, std::uint64_t after) const {
@@ -168,6 +169,7 @@ void FlowIndex::connect() {
           break;
         }
         end_scope();
+        subs_.emplace(entry.label, i);  // the first one counts
         sub_ = i;
         break;
       case Keyword::endsub:
@@ -234,11 +236,13 @@ void FlowIndex::end_scope() {
 
 void FlowIndex::open(int at) {
   const FlowEntry& entry = entries[static_cast<std::size_t>(at)];
-  if (std::find(used_.begin(), used_.end(), entry.label) != used_.end())
+  if (open_.size() >= max_open)
+    return problem(at, "limit_reached",
+                   "more than 1000 loops and branches inside each other; use subs");
+  if (!used_.insert(entry.label).second)
     problem(at, "label_reused",
             "the label o" + entry.label +
                 " has been used here before; give every block a label of its own");
-  used_.push_back(entry.label);
   open_.push_back(at);
 }
 

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,8 +57,9 @@ class FlowIndex {
   void problem(int at, const char* kind, std::string text);
   void end_scope();
 
-  std::vector<int> open_;          ///< entries of the constructs that are open, innermost last
-  std::vector<std::string> used_;  ///< labels of the scope
+  std::vector<int> open_;       ///< entries of the constructs that are open, innermost last
+  std::set<std::string> used_;  ///< labels of the scope
+  std::map<std::string, int, std::less<>> subs_;
   int sub_ = -1;
 };
 

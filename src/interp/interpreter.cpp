@@ -11,7 +11,7 @@
 namespace aircut::interp {
 namespace {
 
-constexpr std::size_t max_cached_blocks = 200'000;  // lines of loops and subs kept parsed
+constexpr std::size_t max_cached_blocks = 50'000;  // lines of loops and subs kept parsed
 constexpr std::size_t max_reported = 10'000;
 
 bool is_percent(std::string_view line) {

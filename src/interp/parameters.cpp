@@ -150,10 +150,20 @@ std::optional<std::int32_t> Parameters::known(std::string_view name) const {
   return found->second;
 }
 
+// Sorted by id; new names mostly come at the end.
+std::size_t Parameters::place_of(std::int32_t id) const {
+  const auto& locals = levels_.back().locals;
+  return static_cast<std::size_t>(std::lower_bound(locals.begin(), locals.end(), id,
+                                                   [](const auto& entry, std::int32_t wanted) {
+                                                     return entry.first < wanted;
+                                                   }) -
+                                  locals.begin());
+}
+
 const double* Parameters::local(std::int32_t id) const {
-  for (const auto& [name, value] : levels_.back().locals)
-    if (name == id) return &value;
-  return nullptr;
+  const auto& locals = levels_.back().locals;
+  const std::size_t at = place_of(id);
+  return at < locals.size() && locals[at].first == id ? &locals[at].second : nullptr;
 }
 
 bool Parameters::exists(std::int32_t id) const {
@@ -201,15 +211,15 @@ void Parameters::set_named(std::int32_t id, bool defined, double value) {
     return;
   }
   auto& locals = levels_.back().locals;
-  const auto at = std::find_if(locals.begin(), locals.end(),
-                               [&](const auto& entry) { return entry.first == id; });
-  if (!defined) {
-    if (at != locals.end()) locals.erase(at);
-  } else if (at == locals.end()) {
-    locals.emplace_back(id, value);
-  } else {
+  const std::size_t place = place_of(id);
+  const auto at = locals.begin() + static_cast<std::ptrdiff_t>(place);
+  const bool known = place < locals.size() && at->first == id;
+  if (defined && known)
     at->second = value;
-  }
+  else if (defined)
+    locals.emplace(at, id, value);
+  else if (known)
+    locals.erase(at);
 }
 
 void Parameters::write_named(std::int32_t id, double value) {

@@ -105,6 +105,7 @@ class Parameters {
   };
 
   std::optional<double> read_high(int n, Place place, std::optional<Fault>& fault) const;
+  std::size_t place_of(std::int32_t id) const;
   const double* local(std::int32_t id) const;
   void set_named(std::int32_t id, bool defined, double value);
 
