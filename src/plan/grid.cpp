@@ -26,7 +26,7 @@ constexpr double row_tolerance = 2e-3;         // lines and arcs
 constexpr double blend_row_tolerance = 1e-2;   // a blend is short: coarser, with more slack
 constexpr double moment_row_tolerance = 4e-2;  // passed in less than `moment`
 constexpr double moment = 1e-3;                // s
-constexpr double speed_tolerance = 2e-3;
+constexpr double speed_tolerance = 1e-3;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Node {

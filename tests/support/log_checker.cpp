@@ -80,24 +80,25 @@ struct Piece {
           length2 > 0 ? std::clamp(dot(add(p, -1, start), way) / length2, 0.0, 1.0) : 0;
       return distance(p, at(f));
     }
-    // The nearest of many samples, then thirds.
+    // Thirds around every sample that is nearer than its neighbours.
     const int n = 24 * std::abs(turns);
-    int best = 0;
-    double nearest = distance(p, at(0));
-    for (int i = 1; i <= n; ++i)
-      if (const double d = distance(p, at(double(i) / n)); d < nearest) {
-        nearest = d;
-        best = i;
+    std::vector<double> off;
+    for (int i = 0; i <= n; ++i) off.push_back(distance(p, at(double(i) / n)));
+    double nearest = *std::min_element(off.begin(), off.end());
+    for (int i = 0; i <= n; ++i) {
+      const auto k = static_cast<std::size_t>(i);
+      if ((i > 0 && off[k - 1] < off[k]) || (i < n && off[k + 1] < off[k])) continue;
+      double low = std::max(0.0, double(i - 1) / n), high = std::min(1.0, double(i + 1) / n);
+      while (high - low > 1e-8) {
+        const double c = low + (high - low) / 3, d = high - (high - low) / 3;
+        if (distance(p, at(c)) < distance(p, at(d)))
+          high = d;
+        else
+          low = c;
       }
-    double low = std::max(0.0, double(best - 1) / n), high = std::min(1.0, double(best + 1) / n);
-    while (high - low > 1e-8) {
-      const double a = low + (high - low) / 3, b = high - (high - low) / 3;
-      if (distance(p, at(a)) < distance(p, at(b)))
-        high = b;
-      else
-        low = a;
+      nearest = std::min(nearest, distance(p, at((low + high) / 2)));
     }
-    return std::min(nearest, distance(p, at((low + high) / 2)));
+    return nearest;
   }
 };
 
