@@ -146,6 +146,35 @@ TEST(Interpreter, CachedLinesGiveTheSameAsFreshOnes) {
   EXPECT_EQ(loop.texts, run_program(sources, unrolled + "M2\n").texts);
 }
 
+TEST(Interpreter, PlainMovesGiveTheSameAsTheWayThroughTheTable) {
+  const Texts lines = {"G21 F100",   "G10 L2 P1 X3 Y4 Z5",
+                       "G92 X1 A7",  "G0 X1 Y2",
+                       "Z3 A10",     "G1 X4",
+                       "Y[2*3] C-5", "G20",
+                       "X1",         "G91",
+                       "X1 Y1",      "G0 Z-1 B2",
+                       "G90",        "G81 Z-3 R2",
+                       "G1",         "G10 L2 P1 R30",
+                       "X1 Y1",      "G93",
+                       "X2 F3",      "Y5",
+                       "G94 F10",    "G43.1 Z2",
+                       "X3",         "M2"};
+  std::string plain, commented;
+  for (const std::string& line : lines) {
+    plain += line + "\n";
+    commented += line + " (c)\n";
+  }
+  SourceMap sources;
+  const Ran one = run_program(sources, plain);
+  const Ran two = run_program(sources, commented);
+  Texts without_comments;
+  for (const std::string& text : two.texts)
+    if (text != "comment c") without_comments.push_back(text);
+  EXPECT_EQ(one.texts, without_comments);
+  EXPECT_EQ(one.kinds(), two.kinds());
+  EXPECT_GT(one.texts.size(), lines.size());
+}
+
 TEST(Interpreter, FilesOfSubsAreFoundInTheFolderAndThePath) {
   SourceMap sources;
   Setting setting;
