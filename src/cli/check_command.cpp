@@ -2,6 +2,7 @@
 // texts. The texts of a program stay only while a message points into them, so memory grows with
 // what is said and not with what was read.
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/exit_code.h"
@@ -11,6 +12,10 @@
 namespace aircut::cli {
 
 namespace {
+
+// Messages kept over all programs; about a kilobyte each in the longest format. The rest are
+// counted.
+constexpr std::size_t most_messages = 100'000;
 
 // Reads a program to its end; moves nothing. What it says is added to `diagnostics`.
 report::Unit check_program(const Job& job, const ProgramArguments& arguments,
@@ -31,6 +36,13 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
   return unit;
 }
 
+// fail before unknown before pass: one failing program makes the gate fail.
+sim::Verdict worse(sim::Verdict a, sim::Verdict b) {
+  for (const sim::Verdict v : {sim::Verdict::fail, sim::Verdict::unknown})
+    if (a == v || b == v) return v;
+  return sim::Verdict::pass;
+}
+
 }  // namespace
 
 int check_command(const CheckArguments& a) {
@@ -47,6 +59,7 @@ int check_command(const CheckArguments& a) {
   report.diagnostics = job.diagnostics.list();
   if (job.machine) report.machine = job.machine->name();
 
+  sim::Verdict worst = sim::judge({}, {}, job.diagnostics, a.output.fail_on);
   std::vector<std::unique_ptr<SourceMap>> kept;
   for (const std::string& path : a.programs) {
     auto sources = std::make_unique<SourceMap>();
@@ -61,23 +74,27 @@ int check_command(const CheckArguments& a) {
       unit.unchecked.push_back(program.error().message);
     }
     unit.program = path;
+    unit.first = report.diagnostics.size();
+    unit.count =
+        std::min(diagnostics.list().size(), most_messages - std::min(most_messages, unit.first));
+    if (const std::size_t more = diagnostics.list().size() - unit.count; more > 0)
+      unit.unchecked.push_back(path + ": " + std::to_string(more) +
+                               " more messages were counted but not kept");
     summary.unchecked = unit.unchecked;
     summary.program_refused = diagnostics.errors() > 0;
     unit.verdict = sim::judge({}, summary, diagnostics, a.output.fail_on);
-    unit.first = report.diagnostics.size();
-    unit.count = diagnostics.list().size();
-    for (const Diagnostic& d : diagnostics.list()) report.diagnostics.push_back(d);
+    for (std::size_t i = 0; i < unit.count; ++i)
+      report.diagnostics.push_back(diagnostics.list()[i]);
     if (unit.count > 0) kept.push_back(std::move(sources));
 
     report.summary.blocks += unit.blocks;
     report.summary.moves += unit.moves;
     report.summary.program_refused |= summary.program_refused;
     for (const std::string& what : unit.unchecked) report.summary.unchecked.push_back(what);
+    worst = worse(worst, unit.verdict);
     report.units.push_back(std::move(unit));
   }
-  Diagnostics all;
-  for (const Diagnostic& d : report.diagnostics) all.add(d);
-  report.summary.verdict = sim::judge({}, report.summary, all, a.output.fail_on);
+  report.summary.verdict = worst;
   print_report(report, a.output);
   return code(exit_code_of(report.summary.verdict));
 }

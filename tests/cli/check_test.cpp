@@ -44,12 +44,13 @@ TEST_F(Check, GivesTheSameExitCodeInEveryFormat) {
 }
 
 TEST_F(Check, KeepsProgramsApart) {
-  // The first one sets a parameter and leaves inches on; the second must not see either.
-  put("one.ngc", "G20\n#1=5\n#<_mine>=7\nG0 X[#1]\nM2\n");
-  put("two.ngc", "G0 X#1\n(DEBUG, #<_mine>)\nM2\n");
+  // The second one needs a parameter and a feed that only the first one sets.
+  put("one.ngc", "G20\n#<_mine>=7\nG1 X[#<_mine>] F100\nM2\n");
+  put("two.ngc", "G1 X1\nG0 X#<_mine>\nM2\n");
   const std::string one = path("one.ngc"), two = path("two.ngc");
   const json both = json::parse(aircut("check " + one + " " + two + " --json").out);
   const json alone = json::parse(aircut("check " + two + " --json").out);
+  ASSERT_EQ(alone["findings"].size(), 2u) << alone;
   EXPECT_EQ(both["programs"][1], alone["programs"][0]);
   EXPECT_EQ(both["findings"], alone["findings"]);
 }
@@ -97,6 +98,24 @@ TEST_F(Check, TakesAThousandPrograms) {
         << i;
   for (const json& finding : out["findings"])
     EXPECT_EQ(finding["program"], finding["place"]["file"]);
+}
+
+TEST_F(Check, CountsMessagesBeyondWhatItKeeps) {
+  // A program tells 10 000 messages at most; eleven of them are more than are kept.
+  std::string text = "G21\n", list;
+  for (int i = 0; i < 10'100; ++i) text += "G0 X1 ?\n";
+  for (int i = 0; i < 11; ++i) {
+    put(std::to_string(i) + ".ngc", text);
+    list += " " + path(std::to_string(i) + ".ngc");
+  }
+  const Outcome r = aircut("check" + list + good_ + " --json");
+  EXPECT_EQ(r.code, 1);
+  const json out = json::parse(r.out);
+  EXPECT_EQ(out["findings"].size(), 100'000u);
+  for (std::size_t i = 0; i < 11; ++i) EXPECT_EQ(out["programs"][i]["verdict"], "fail");
+  EXPECT_EQ(out["programs"][11]["verdict"], "pass");
+  const std::string last = out["programs"][10]["unchecked"].dump();
+  EXPECT_NE(last.find("more messages were counted but not kept"), std::string::npos) << last;
 }
 
 TEST_F(Check, WritesPathsForSarifRelativeToWhereItRuns) {
