@@ -156,7 +156,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   std::map<const SourceText*, std::unique_ptr<ProgramFile>> files_;
   std::vector<ProgramFile*> opened_order_;  ///< files of subs
   Block scratch_;
-  Block* block_ = nullptr;  ///< in execution
+  std::unique_ptr<Block> refused_;  ///< of a loop's line that could not be read
+  Block* block_ = nullptr;          ///< in execution
   SourceSpan span_;
   bool span_valid_ = false;
   bool done_ = false;

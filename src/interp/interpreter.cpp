@@ -103,6 +103,7 @@ Block* Interpreter::Impl::fetch() {
   frame.line = block->line;
   if (frame.file->percent && is_percent(line)) {
     frame.last = nullptr;
+    if (own) refused_ = std::move(own);
     if (frames_.size() > 1 || percent_seen_) {
       if (frames_.size() > 1) {
         end_of_file();
@@ -117,6 +118,7 @@ Block* Interpreter::Impl::fetch() {
   }
   if (const auto fault = parse_line(line, parameters_, table_, *block)) {
     frame.last = nullptr;
+    if (own) refused_ = std::move(own);  // messages still refer to it
     if (block->block_delete && options_.block_delete) return nullptr;
     ++statistics_.lines;
     report(*fault);
