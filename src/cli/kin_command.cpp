@@ -216,7 +216,7 @@ RowOrReason jacobian_row(const Machine& machine, const Row& row) {
     AxisValues step;
     step[axes[column]] = 1;
     JointVector dq, ddq;
-    if (!machine.kinematics().rates(target, step, {}, dq, ddq) || !dq.allFinite())
+    if (!machine.kinematics().rates(target, *reachable, step, {}, dq, ddq) || !dq.allFinite())
       return unexpected("the joints would need an infinite speed there (a singular pose)");
     const double unit = is_rotary(axes[column]) ? degree : 1;
     for (std::size_t i = 0; i < joints.size(); ++i)

@@ -35,8 +35,8 @@ void Kinematics::passive(const JointVector&, std::span<double> out) const {
   std::fill(out.begin(), out.end(), 0.0);
 }
 
-bool Kinematics::rates(const Target&, const AxisValues&, const AxisValues&, JointVector&,
-                       JointVector&) const {
+bool Kinematics::rates(const Target&, const JointVector&, const AxisValues&, const AxisValues&,
+                       JointVector&, JointVector&) const {
   return false;
 }
 

@@ -118,6 +118,9 @@ struct TipInterval {
   AxisValues low, high;
   AxisValues travel;
   AxisValues tool_offset;
+  /// Joints in whose branch the machine is, as for inverse(). Empty: the bound holds for all
+  /// branches.
+  JointVector near = JointVector();
 };
 
 /// Tool pose ↔ joints, for one family of machines. Stateless and thread-safe.
@@ -143,10 +146,14 @@ class Kinematics {
   /// Values of the passive joints (mm or rad) for driven ones that inverse() gave.
   virtual void passive(const JointVector& joints, std::span<double> out) const;
 
+  /// Direction of the tool (from the tip towards the spindle) in M, for types whose joints tilt it.
+  virtual std::optional<Vec3> tool_axis(const AxisValues&) const { return std::nullopt; }
+
   /// First and second derivative of the joints with respect to a path parameter, given those of the
-  /// tip. Default false: not available, the caller uses differences of inverse().
-  virtual bool rates(const Target& target, const AxisValues& d_tip, const AxisValues& dd_tip,
-                     JointVector& dq, JointVector& ddq) const;
+  /// tip. `joints` is what inverse() gave for the target: its branch is the one that counts.
+  /// Default false: not available, the caller uses differences of inverse().
+  virtual bool rates(const Target& target, const JointVector& joints, const AxisValues& d_tip,
+                     const AxisValues& dd_tip, JointVector& dq, JointVector& ddq) const;
 
   /// A proven upper bound of the way that every driven joint (first) and passive value (after them)
   /// travels while the tip moves anywhere inside `tip.low..high` along a path of `tip.travel`.
@@ -173,12 +180,31 @@ struct OxGlide {
 };
 std::shared_ptr<const Kinematics> make_ox_glide(const OxGlide& parameters);
 
+/// Lengths of a six-axis arm, mm (kinematics.md c.1): standard D-H rows d1 a1 | b a2 | a3 | d4 |
+/// d6, and the spindle: dt beyond the flange on its axis, on the horizontal machine across it, at.
+struct RobotArm {
+  double d1 = 0, a1 = 0, b = 0;
+  double a2 = 900;  ///< upper arm
+  double a3 = 0;
+  double d4 = 950;  ///< forearm
+  double d6 = 150;  ///< from the wrist's centre to the flange
+  double dt = 200, at = 250;
+};
+/// Five-axis machine with a horizontal spindle, joint 4 of the arm blocked; of the arm's lengths
+/// a2, d4, d6, dt, at count. Program axes X Y Z A B, R = Rx(A)·Ry(B).
+std::shared_ptr<const Kinematics> make_robot_horizontal(const RobotArm& arm);
+/// Five-axis machine with a vertical spindle on the flange's axis, joint 6 blocked. X Y Z A B.
+std::shared_ptr<const Kinematics> make_robot_vertical(const RobotArm& arm);
+/// All six axes, X Y Z A B C, R = Rx(A)·Ry(B)·Rz(C).
+std::shared_ptr<const Kinematics> make_robot_6r(const RobotArm& arm);
+
 /// How a rapid moves.
 enum class RapidMode : unsigned char { coordinated, joint, dogleg };
 
 struct Spindle {
   LinkId link = bed_link;
-  Vec3 gauge = Vec3::Zero();  ///< F origin, bed axes, all joints zero; tool axis is +Z there
+  Vec3 gauge = Vec3::Zero();     ///< F origin, bed axes, all joints zero
+  Mat3 R_LF = Mat3::Identity();  ///< axes of F: those of M with all joints zero; the tool is at −Z
   double min_rpm = 0, max_rpm = 0;
 };
 

@@ -217,7 +217,14 @@ void read_work(config::Table& top, ReadState& state) {
   auto work = top.table("work");
   if (!work) return;
   state.machine.work_link_ = read_link(*work, "link", "bed", state.machine);
-  state.machine.X_LM_ = translation(point(*work, "origin", Vec3::Zero(), state.unit_mm));
+  Pose& X_LM = state.machine.X_LM_;
+  X_LM = translation(point(*work, "origin", Vec3::Zero(), state.unit_mm));
+  if (const auto angles = work->numbers("angles", 3))
+    X_LM.linear() = (Eigen::AngleAxisd((*angles)[2] * deg, Vec3::UnitZ()) *
+                     Eigen::AngleAxisd((*angles)[1] * deg, Vec3::UnitY()) *
+                     Eigen::AngleAxisd((*angles)[0] * deg, Vec3::UnitX()))
+                        .toRotationMatrix();
+  state.machine.spindle_.R_LF = X_LM.linear();
 }
 
 }  // namespace

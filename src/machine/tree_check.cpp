@@ -66,7 +66,12 @@ std::optional<std::string> disagreement(const Machine& machine, const JointVecto
     return "the links draw another machine than the kinematics drives: at " +
            text_of(machine, joints) + " the gauge point is at " + text_of(by_kinematics) +
            " in M by the kinematics, but at " + text_of(by_tree) + " by the links";
-  const Vec3 tool_axis = X_MS.linear() * Vec3::UnitZ();
+  const Vec3 tool_axis = X_MS.linear() * spindle.R_LF * Vec3::UnitZ();
+  if (const auto wanted = machine.kinematics().tool_axis(tip);
+      wanted && !((tool_axis - *wanted).norm() <= tolerance_rad))
+    return "the links tilt the spindle otherwise than the kinematics: at " +
+           text_of(machine, joints) + " the tool points along " + text_of(*wanted) +
+           " in M by the kinematics, but along " + text_of(tool_axis) + " by the links";
   if (!machine.kinematics().axes().has(Axis::a) && !machine.kinematics().axes().has(Axis::b) &&
       !((tool_axis - Vec3::UnitZ()).norm() <= tolerance_rad))
     return "the links tilt the spindle at " + text_of(machine, joints) +

@@ -75,7 +75,7 @@ tl::expected<JointPoint, ReachError> joint_point(const machine::Kinematics& kine
   JointPoint out{*q, JointVector::Zero(q->size()), JointVector::Zero(q->size())};
   const auto finite = [&out] { return out.dq.allFinite() && out.ddq.allFinite(); };
   const ReachError singular{"the joints would need an infinite speed there (a singular pose)"};
-  if (kinematics.rates(target, d_tip, dd_tip, out.dq, out.ddq)) {
+  if (kinematics.rates(target, *q, d_tip, dd_tip, out.dq, out.ddq)) {
     if (!finite()) return unexpected(singular);
     return out;
   }

@@ -61,6 +61,7 @@ class Search {
     --budget_;
     machine::TipInterval tip = bounds(path_, s0, s1);
     tip.tool_offset = tool_offset_;
+    tip.near = near_;
     return kinematics_.travel_bound(tip, scratch_);
   }
 

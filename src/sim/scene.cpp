@@ -63,7 +63,9 @@ void Scene::load_tool(int number) {
     body.role = role_of(piece.role);
     body.link = spindle.link;
     body.mesh = std::make_shared<TriangleMesh>(revolve(piece.profile, tool_facet_tolerance));
-    body.X_LB = translation(spindle.gauge - Vec3(0, 0, loaded->gauge_length));  // X_LF · X_FT
+    Pose X_LF = translation(spindle.gauge);
+    X_LF.linear() = spindle.R_LF;
+    body.X_LB = X_LF * translation(Vec3(0, 0, -loaded->gauge_length));  // X_LF · X_FT
     body.color = color_of(piece.role);
     bodies_.push_back({body, std::make_shared<collide::CollisionMesh>(*body.mesh)});
   }

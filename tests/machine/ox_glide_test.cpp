@@ -66,7 +66,7 @@ TEST(OxGlide, GivesTheJacobianOfTheVectors) {
       for (const int column : {0, 1}) {
         const AxisValues d = column == 0 ? axis_values(1, 0, 0) : axis_values(0, 0, 1);
         JointVector dq, ddq;
-        ASSERT_TRUE(glide->rates({tip_of(v.at("pose")), {}}, d, {}, dq, ddq));
+        ASSERT_TRUE(glide->rates({tip_of(v.at("pose")), {}}, zero, d, {}, dq, ddq));
         for (const int row : {0, 1})
           EXPECT_NEAR(dq[row], v.at("jacobian_ds_dxz")[row][column].get<double>(), 1e-6) << v;
       }
@@ -167,8 +167,10 @@ TEST(OxGlide, RodsAndPlatformAreDrawnWhereTheyAre) {
 TEST(OxGlide, HasNoRatesAndNoBoundWhereARodIsVertical) {
   const auto glide = make_ox_glide({});
   JointVector dq, ddq;
-  EXPECT_FALSE(glide->rates({axis_values(250, 0, -358), {}}, axis_values(0, 0, 1), {}, dq, ddq));
-  EXPECT_TRUE(glide->rates({axis_values(250, 0, -357), {}}, axis_values(0, 0, 1), {}, dq, ddq));
+  EXPECT_FALSE(
+      glide->rates({axis_values(250, 0, -358), {}}, zero, axis_values(0, 0, 1), {}, dq, ddq));
+  EXPECT_TRUE(
+      glide->rates({axis_values(250, 0, -357), {}}, zero, axis_values(0, 0, 1), {}, dq, ddq));
   std::array<double, 7> travel{};
   TipInterval interval{axis_values(250, 0, -358.1), axis_values(250, 0, -357), {}, {}};
   interval.travel[Axis::z] = 1.1;

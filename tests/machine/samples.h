@@ -26,6 +26,15 @@ inline AxisValues axis_values(double x, double y, double z, double a = 0, double
 
 inline std::vector<Sample> samples() {
   constexpr double pi = std::numbers::pi;
+  constexpr double deg = pi / 180;
+  const RobotArm arm;
+  RobotArm vertical;
+  vertical.dt = 350;
+  RobotArm offset = vertical;  // every length of the arm counts
+  offset.d1 = 90;
+  offset.a1 = 60;
+  offset.b = -40;
+  offset.a3 = 70;
   OxGlide crossed;
   OxGlide extended;
   extended.form = OxGlide::Form::extended;
@@ -44,6 +53,18 @@ inline std::vector<Sample> samples() {
        axis_values(349, 150, -290)},
       {"ox-glide with offset", make_ox_glide(shifted), axis_values(163, -150, -417),
        axis_values(349, 150, -260)},
+      {"robot-horizontal", make_robot_horizontal(arm),
+       axis_values(-250, 400, -1400, -25 * deg, -25 * deg),
+       axis_values(250, 650, -1100, 25 * deg, 25 * deg)},
+      {"robot-vertical", make_robot_vertical(vertical),
+       axis_values(-250, -1100, 150, -25 * deg, -25 * deg),
+       axis_values(250, -850, 450, 25 * deg, 25 * deg)},
+      {"robot-6r", make_robot_6r(vertical),
+       axis_values(-250, -1100, 150, -25 * deg, -25 * deg, -40 * deg),
+       axis_values(250, -850, 450, 25 * deg, 25 * deg, 40 * deg)},
+      {"robot-6r with offsets", make_robot_6r(offset),
+       axis_values(-250, -1100, 150, -25 * deg, -25 * deg, -40 * deg),
+       axis_values(250, -850, 450, 25 * deg, 25 * deg, 40 * deg)},
   };
 }
 

@@ -43,8 +43,8 @@ class Identity final : public Kinematics {
     return tip;
   }
 
-  bool rates(const Target&, const AxisValues& d_tip, const AxisValues& dd_tip, JointVector& dq,
-             JointVector& ddq) const override {
+  bool rates(const Target&, const JointVector&, const AxisValues& d_tip, const AxisValues& dd_tip,
+             JointVector& dq, JointVector& ddq) const override {
     dq = joints_of(d_tip);
     ddq = joints_of(dd_tip);
     return true;

@@ -6,10 +6,13 @@
 namespace aircut::machine {
 
 std::span<const KinematicsRow> kinematics_table() {
-  static constexpr std::array<KinematicsRow, 2> rows = {{
-      // type      reader          follows rotary joints
+  static constexpr std::array<KinematicsRow, 5> rows = {{
+      // type              reader                 follows rotary joints
       {"identity", read_identity, false},
       {"ox-glide", read_ox_glide, true},
+      {"robot-horizontal", read_robot_horizontal, true},
+      {"robot-vertical", read_robot_vertical, true},
+      {"robot-6r", read_robot_6r, true},
   }};
   return rows;
 }

@@ -30,6 +30,9 @@ std::span<const KinematicsRow> kinematics_table();
 // One per file of this folder.
 std::shared_ptr<const Kinematics> read_identity(KinematicsInput& input);
 std::shared_ptr<const Kinematics> read_ox_glide(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_robot_horizontal(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_robot_vertical(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_robot_6r(KinematicsInput& input);
 
 /// A length in mm from the table, within ±1 km; errors go to the table.
 double length(config::Table& table, const std::string& key, double fallback, double unit_mm);

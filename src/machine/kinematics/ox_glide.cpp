@@ -101,8 +101,8 @@ class OxGlideKinematics final : public Kinematics {
   }
 
   // S = x ± w(u), u = const − z, so Ṡ = ẋ ∓ w'·ż and S̈ = ẍ ± (w''·ż² − w'·z̈).
-  bool rates(const Target& target, const AxisValues& d_tip, const AxisValues& dd_tip,
-             JointVector& dq, JointVector& ddq) const override {
+  bool rates(const Target& target, const JointVector&, const AxisValues& d_tip,
+             const AxisValues& dd_tip, JointVector& dq, JointVector& ddq) const override {
     const Point P = platform(target.tip, target.tool_offset);
     if (why_not(target, P.z)) return false;
     const Reach r1 = reach(p_.l1, depth1(P.z));

@@ -1,0 +1,81 @@
+// The arm of the vertical and of the six-axis robot: six rotary joints whose last three axes meet
+// in the wrist centre C (kinematics.md c.1, c.5). {0}: z up along joint 1, x forward at θ1 = 0.
+//
+//            a2          ψ = θ2 + θ3, in the vertical plane of e_r (outwards) and e_z:
+//   elbow  o-----        upper arm    a2·(−sin θ2, cos θ2)
+//         /  d4  \ C     elbow offset a3·x3, x3 = (−sin ψ, cos ψ)
+//        /        o      forearm      d4·z3, z3 = (cos ψ, sin ψ)
+//    d1 o          \ d6  the plane is b off the axis of joint 1, along z1 = (sin θ1, −cos θ1, 0)
+//       |           v flange
+//
+// With r² = Cx² + Cy² − b², u = ±r − a1, v = Cz − d1, L3 = √(a3² + d4²), φ = atan2(d4, a3):
+//
+//   K = (u² + v² − a2² − L3²) / (2 a2 L3),   θ3 = φ − e·acos K
+//   θ2 = atan2(v, u) − 90° − atan2(−e·L3·√(1 − K²), a2 + L3·K)
+//
+// n, the direction of the flange, seen from frame 3 is (−c5 c4, −c5 s4, s5); that gives θ4 and θ5.
+#pragma once
+
+#include "machine/kinematics/robot.h"
+
+namespace aircut::machine {
+
+template <class T>
+using RobotVector = std::array<T, 3>;
+
+/// Frame 3, whose x axis leads from the elbow across the forearm and z along it.
+template <class T>
+struct Forearm {
+  T c1, s1, c23, s23;
+  Forearm(const T& t1, const T& t23) {
+    using std::cos;
+    using std::sin;
+    c1 = cos(t1);
+    s1 = sin(t1);
+    c23 = cos(t23);
+    s23 = sin(t23);
+  }
+  /// A direction of {0} seen from frame 3.
+  RobotVector<T> seen(const RobotVector<T>& a) const {
+    const T out = c1 * a[0] + s1 * a[1];  // along e_r
+    return {c23 * a[2] - s23 * out, s1 * a[0] - c1 * a[1], c23 * out + s23 * a[2]};
+  }
+};
+
+/// θ1 … θ5 for the wrist centre C and the direction n of the flange, both in {0}.
+template <class T>
+void solve_arm(const RobotArm& p, const RobotBranch& branch, const RobotVector<T>& C,
+               const RobotVector<T>& n, RobotJoints<T>& q) {
+  using std::acos;
+  using std::atan2;
+  using std::sqrt;
+  const T f(branch.shoulder), e(branch.elbow), w(branch.wrist);
+  const T r = f * sqrt(square(C[0]) + square(C[1]) - T(p.b * p.b));
+  if (p.b == 0)
+    q[0] = atan2(f * C[1], f * C[0]);
+  else
+    q[0] = atan2(C[1] * r + C[0] * T(p.b), C[0] * r - C[1] * T(p.b));
+  const double l3 = std::hypot(p.a3, p.d4);
+  const T u = r - T(p.a1), v = C[2] - T(p.d1);
+  const T K = (square(u) + square(v) - T(p.a2 * p.a2 + l3 * l3)) * T(1 / (2 * p.a2 * l3));
+  q[2] = T(std::atan2(p.d4, p.a3)) - e * acos(K);
+  const T lift = e * T(l3) * sqrt((T(1) - K) * (T(1) + K));
+  q[1] = atan2(v, u) - T(std::numbers::pi / 2) + atan2(lift, T(p.a2) + T(l3) * K);
+  const RobotVector<T> m = Forearm<T>(q[0], q[1] + q[2]).seen(n);
+  q[3] = atan2(-w * m[1], -w * m[0]);
+  q[4] = atan2(m[2], w * sqrt(square(m[0]) + square(m[1])));
+}
+
+/// Why there is no solution; nothing when there is one.
+std::optional<std::string> why_no_arm(const RobotArm& p, const RobotBranch& branch, const Vec3& C,
+                                      const Vec3& n);
+/// Of joints θ1 … θ5.
+RobotBranch branch_of_arm(const RobotArm& p, double t2, double t3, double t5);
+/// The flange (frame 6) seen from {0}.
+Pose flange(const RobotArm& p, const RobotJoints<double>& q);
+/// The tip of a tool on the flange's axis, dt beyond it, seen from M (x_M = y_0, y_M = −x_0).
+Pose tool_on_flange(const RobotArm& p, const RobotJoints<double>& q);
+/// The keys that the machines with a tool on the flange's axis have.
+std::span<const RobotKey> coaxial_robot_keys();
+
+}  // namespace aircut::machine
