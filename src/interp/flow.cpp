@@ -222,13 +222,25 @@ void FlowIndex::connect() {
         "this sub has no end; add o" + entries[static_cast<std::size_t>(sub_)].label + " endsub");
 }
 
+// Tells the construct, and all branches of an if, that it has no end.
+void FlowIndex::leave_open(int at, const std::string& text) {
+  while (at >= 0) {
+    FlowEntry& entry = entries[static_cast<std::size_t>(at)];
+    const bool is_branch = entry.keyword == Keyword::elseif || entry.keyword == Keyword::else_;
+    const int before = is_branch ? entry.partner : -1;
+    problem(at, "label_missing", text);
+    entry.partner = -1;
+    entry.next = -1;
+    at = before;
+  }
+}
+
 // What is still open here has no end.
 void FlowIndex::end_scope() {
   for (const int at : open_) {
     const FlowEntry& entry = entries[static_cast<std::size_t>(at)];
-    problem(at, "label_missing",
-            std::string("this ") + text_of(entry.keyword) + " has no end; add o" + entry.label +
-                " " + text_of(end_of(entry.keyword)));
+    leave_open(at, std::string("this ") + text_of(entry.keyword) + " has no end; add o" +
+                       entry.label + " " + text_of(end_of(entry.keyword)));
   }
   open_.clear();
   used_.clear();
@@ -259,10 +271,9 @@ void FlowIndex::close(int at) {
     if (!fits && !fits_deeper) break;
     open_.pop_back();
     if (!fits) {
-      problem(top, "label_missing",
-              std::string("this ") + text_of(opener.keyword) + " is not closed before o" +
-                  entry.label + " " + text_of(entry.keyword) + "; add o" + opener.label + " " +
-                  text_of(end_of(opener.keyword)));
+      leave_open(top, std::string("this ") + text_of(opener.keyword) + " is not closed before o" +
+                          entry.label + " " + text_of(entry.keyword) + "; add o" + opener.label +
+                          " " + text_of(end_of(opener.keyword)));
       continue;
     }
     entry.partner = top;

@@ -55,6 +55,7 @@ class FlowIndex {
   void branch(int at);
   void leave_loop(int at);
   void problem(int at, const char* kind, std::string text);
+  void leave_open(int at, const std::string& text);
   void end_scope();
 
   std::vector<int> open_;       ///< entries of the constructs that are open, innermost last

@@ -77,7 +77,7 @@ bool Interpreter::Impl::entry_is_sound(int at) {
                       e.keyword == Keyword::do_ || e.keyword == Keyword::repeat ||
                       e.keyword == Keyword::sub;
   if (opener && e.partner < 0) stop();
-  return opener && e.partner >= 0;
+  return opener && e.partner >= 0 && !done_;
 }
 
 void Interpreter::Impl::report_at(const FlowEntry& where) {
