@@ -85,7 +85,7 @@ bool JointMotion::travel_bound(double ta, double tb, std::span<double> travel) c
   }
   machine::TipInterval tip = plan::bounds(segment_->path, s0, s1);
   tip.tool_offset = segment_->tool_offset;
-  tip.near = near_;
+  tip.near = near_at(s0);
   return machine_->kinematics().travel_bound(tip, travel);
 }
 
