@@ -101,7 +101,7 @@ std::string printable(std::string_view text) {
       out += c;
     }
   }
-  return out;
+  return harmless(out);
 }
 
 std::size_t count_characters(std::string_view text) {

@@ -25,7 +25,13 @@ std::optional<std::string> nearest_word(std::string_view word, std::span<const s
 /// ` Did you mean 'x'?`, or an empty text.
 std::string did_you_mean(std::string_view word, std::span<const std::string> known);
 
-/// Control characters shown as `^[`, `^I` …, so that text from a file can't drive a terminal.
+/// Valid UTF-8 of any bytes; those that are not UTF-8 are read as Latin-1, as old programs are
+/// written.
+std::string utf8(std::string_view bytes);
+/// Valid UTF-8 in which characters that act on a terminal or on the order of a text (C1 controls,
+/// directions, separators) are replaced by U+FFFD; line ends and tabs stay.
+std::string harmless(std::string_view text);
+/// harmless(), with control characters shown as `^[`, `^I` …: one line that can't drive a terminal.
 std::string printable(std::string_view text);
 
 /// Characters (UTF-8 code points) of a text; a broken sequence counts a character per byte.

@@ -95,7 +95,10 @@ int check_command(const CheckArguments& a) {
     report.units.push_back(std::move(unit));
   }
   report.summary.verdict = worst;
-  print_report(report, a.output);
+  if (!print_report(report, a.output)) {
+    print_error(make_error("output_failed", "can't write to standard output"), a.output.color);
+    return code(ExitCode::unknown);
+  }
   return code(exit_code_of(report.summary.verdict));
 }
 

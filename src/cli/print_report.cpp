@@ -39,9 +39,10 @@ std::string text_of(const report::RunReport& report, const OutputArguments& outp
 
 }  // namespace
 
-void print_report(const report::RunReport& report, const OutputArguments& output) {
+bool print_report(const report::RunReport& report, const OutputArguments& output) {
   const std::string text = text_of(report, output);
-  std::fwrite(text.data(), 1, text.size(), stdout);
+  const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  return std::fflush(stdout) == 0 && written;
 }
 
 }  // namespace aircut::cli

@@ -9,6 +9,7 @@ namespace aircut::cli {
 /// All kinds of messages with their long text, sorted by kind.
 std::vector<KindText> all_kinds();
 
-void print_report(const report::RunReport& report, const OutputArguments& output);
+/// False when standard output could not be written (a full disk).
+[[nodiscard]] bool print_report(const report::RunReport& report, const OutputArguments& output);
 
 }  // namespace aircut::cli

@@ -224,7 +224,8 @@ int run_command(const RunArguments& a) {
     if (auto written = write_file(a.folder + "/result.json", report::to_json(report)); !written)
       return fail(written.error());
 
-  print_report(report, a.output);
+  if (!print_report(report, a.output))
+    return fail(make_error("output_failed", "can't write to standard output"));
   if (!a.folder.empty() && !a.output.quiet && a.output.format == Format::human)
     std::printf("  written  %s/: result.json%s\n", printable(a.folder).c_str(),
                 [&] {

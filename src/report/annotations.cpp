@@ -1,21 +1,20 @@
 // One line per message: as compilers write them, and as GitHub's workflow commands.
 
 #include "report/messages.h"
-#include "report/text.h"
 
 namespace aircut::report {
 
 std::string to_gcc(const RunReport& report) {
   std::string out;
   for (const std::string& what : unchecked_besides_findings(report))
-    out += "aircut: warning: not checked: " + plain(what) + " [not_checked]\n";
+    out += "aircut: warning: not checked: " + printable(what) + " [not_checked]\n";
   for (const Message& message : messages(report, Take::rows)) {
     const Diagnostic& d = message.text;
     if (d.span || message.program.empty())
       out += harmless(format_gcc(d)) + "\n";
     else
-      out += plain(message.program) + ": " + std::string(to_string(d.severity)) + ": " +
-             plain(d.message) + " [" + d.kind + "]\n";
+      out += printable(message.program) + ": " + std::string(to_string(d.severity)) + ": " +
+             printable(d.message) + " [" + d.kind + "]\n";
   }
   return out;
 }
@@ -27,7 +26,7 @@ namespace {
 std::string data(std::string_view text, bool property) {
   constexpr const char* digits = "0123456789ABCDEF";
   std::string out;
-  for (const char c : plain(text)) {
+  for (const char c : printable(text)) {
     if (c == '%' || (property && (c == ':' || c == ','))) {
       const auto byte = static_cast<unsigned char>(c);
       out += {'%', digits[byte >> 4], digits[byte & 15]};

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "report/messages.h"
-#include "report/text.h"
 
 namespace aircut::report {
 
@@ -63,7 +62,6 @@ std::string underline_remark(const sim::Finding& f) {
     case sim::Kind::tool_missing:
     case sim::Kind::not_executed:
     case sim::Kind::not_checked:
-    case sim::Kind::limit_reached:
       return "t = " + seconds(f.t_first);
   }
   return {};

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "report/messages.h"
-#include "report/text.h"
 
 namespace aircut::report {
 

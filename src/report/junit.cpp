@@ -12,7 +12,6 @@
 #include <sstream>
 
 #include "report/messages.h"
-#include "report/text.h"
 
 namespace aircut::report {
 
@@ -40,7 +39,7 @@ std::string text_of(const std::vector<const Message*>& messages) {
 void put_text(pugi::xml_node parent, const char* name, const std::string& type,
               const std::vector<const Message*>& list) {
   pugi::xml_node node = parent.append_child(name);
-  std::string first = plain(list.front()->text.message);
+  std::string first = printable(list.front()->text.message);
   if (list.size() > 1) first += " (and " + std::to_string(list.size() - 1) + " more)";
   node.append_attribute("message") = first.c_str();
   node.append_attribute("type") = type.c_str();
@@ -70,10 +69,11 @@ void put_checked(pugi::xml_node parent, const Suite& suite, const std::string& n
   if (suite.unchecked.empty() && !suite.unknown) return;
   ++counts.errors;
   std::string text;
-  for (const std::string& what : suite.unchecked) text += plain(what) + "\n";
+  for (const std::string& what : suite.unchecked) text += printable(what) + "\n";
   pugi::xml_node error = node.append_child("error");
-  error.append_attribute("message") =
-      suite.unchecked.empty() ? "the verdict is unknown" : plain(suite.unchecked.front()).c_str();
+  error.append_attribute("message") = suite.unchecked.empty()
+                                          ? "the verdict is unknown"
+                                          : printable(suite.unchecked.front()).c_str();
   error.append_attribute("type") = "not_checked";
   error.text().set(text.c_str());
 }
@@ -81,7 +81,7 @@ void put_checked(pugi::xml_node parent, const Suite& suite, const std::string& n
 Counts put_suite(pugi::xml_node parent, const Suite& suite) {
   Counts counts;
   pugi::xml_node node = parent.append_child("testsuite");
-  const std::string name = plain(suite.name);
+  const std::string name = printable(suite.name);
   node.append_attribute("name") = name.c_str();
   put_checked(node, suite, name, counts);
   for (const auto& [kind, row] : suite.cases) {

@@ -11,7 +11,6 @@
 
 #include "report/json_items.h"
 #include "report/messages.h"
-#include "report/text.h"
 
 namespace aircut::report {
 
@@ -132,7 +131,7 @@ class Writer {
     for (const CallFrame* frame = span.calls.get(); frame; frame = frame->site.calls.get()) {
       if (!frame->site) continue;
       Json place = location(frame->site);
-      place["message"] = {{"text", plain(frame->what)}};
+      place["message"] = {{"text", printable(frame->what)}};
       out.push_back(std::move(place));
     }
     return out;
@@ -151,9 +150,9 @@ class Writer {
 
   Json result(const Message& message) {
     const Diagnostic& d = message.text;
-    std::string text = plain(d.message);
+    std::string text = printable(d.message);
     for (const Note& note : d.notes)
-      if (note.label == "help") text += ". Help: " + plain(note.text);
+      if (note.label == "help") text += ". Help: " + printable(note.text);
     Json out = {{"ruleId", d.kind},
                 {"ruleIndex", rules_.at(d.kind)},
                 {"level", level(d.severity)},
@@ -178,7 +177,7 @@ class Writer {
     const std::vector<std::string> open = unchecked(report_);
     Json notes = Json::array();
     for (std::size_t i = 0; i < std::min(open.size(), options_.most); ++i)
-      notes.push_back(notification("not_checked", "error", "not checked: " + plain(open[i])));
+      notes.push_back(notification("not_checked", "error", "not checked: " + printable(open[i])));
     if (open.size() > options_.most)
       notes.push_back(
           notification("not_checked", "error",

@@ -25,7 +25,6 @@ constexpr KindRow kinds[] = {
     {Kind::tool_missing, "tool_missing", Severity::error},
     {Kind::not_executed, "not_executed", Severity::warning},
     {Kind::not_checked, "not_checked", Severity::warning},
-    {Kind::limit_reached, "limit_reached", Severity::warning},
 };
 
 const KindRow& row_of(Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }

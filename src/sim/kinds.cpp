@@ -63,10 +63,6 @@ const std::vector<KindText>& finding_kinds() {
        "A tool without geometry, or a move for which no bound of the motion is known. What was "
        "not\n"
        "checked is never called fine: the verdict is unknown."},
-      {"limit_reached", "a limit of the run was reached",
-       "The run ended before the program did (blocks, simulated time). What came before is valid; "
-       "the\n"
-       "rest was not checked. The limits are options: --max-blocks, --max-sim-time."},
   };
   return kinds;
 }

@@ -69,7 +69,6 @@ enum class Kind : unsigned char {
   tool_missing,
   not_executed,
   not_checked,
-  limit_reached,
 };
 std::string_view to_string(Kind kind);
 Severity severity_of(Kind kind);

@@ -7,7 +7,6 @@
 #include <pugixml.hpp>
 
 #include "interp/interp.h"
-#include "report/text.h"
 #include "samples.h"
 
 namespace aircut::report {

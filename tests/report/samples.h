@@ -159,7 +159,6 @@ class Samples {
     out.push_back(finding(Kind::tool_missing, 2, "T4 is not in the tool table"));
     out.push_back(finding(Kind::not_checked, 2, "T4 has no geometry"));
     out.back().makes_unknown = true;
-    out.push_back(finding(Kind::limit_reached, 7, "simulated time of 60 s is over"));
     out.back().makes_unknown = true;
     return out;
   }

@@ -1,18 +1,16 @@
 // Collisions and near misses of every watched pair of bodies, proven over the whole of every step.
 //
-// Which pairs: all bodies on different links that collide, without
-//   - neighbours in the tree (machine and spindle bodies on links joined by one couple),
-//   - fixture against fixture (they rest on one another),
-//   - pairs excluded by name in machine.toml, which the report lists with their reason.
+// Which pairs: pairs.h.
 // A pair that overlaps at the start pose is an error of the model (self_overlap); it is named and
 // then left out, since nothing further can be said of it.
 //
 // Each pair keeps a budget of proven distance, so a step in which nothing is near costs no query.
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "sim/checks/contact.h"
+#include "sim/checks/pairs.h"
 #include "sim/sim.h"
 
 namespace aircut::sim {
@@ -21,65 +19,6 @@ namespace {
 
 using machine::Body;
 using machine::LinkPoses;
-using machine::Role;
-
-struct Pair {
-  std::size_t a = 0, b = 0;  // indices into Scene::bodies(); a is nearer to the tool
-  collide::Budget budget;
-  bool left_out = false;    // overlapped at the start
-  double contact_end = -1;  // program time at which the last contact ended
-};
-
-bool is_tool(Role role) {
-  return role == Role::holder || role == Role::shank || role == Role::cutter || role == Role::probe;
-}
-
-bool is_machine(Role role) { return role == Role::machine || role == Role::spindle; }
-
-// The body that a person would name first: the tool's, then the spindle's, fixtures last.
-int rank(Role role) {
-  switch (role) {
-    case Role::holder:
-    case Role::shank:
-    case Role::cutter:
-    case Role::probe:
-      return 0;
-    case Role::spindle:
-      return 1;
-    case Role::machine:
-      return 2;
-    case Role::stock:
-    case Role::part:
-    case Role::fixture:
-      return 3;
-  }
-  return 3;
-}
-
-std::string in_words(const Body& body) {
-  const std::string name = "`" + body.name + "`";
-  switch (body.role) {
-    case Role::holder:
-      return "tool holder " + name;
-    case Role::shank:
-      return "tool shank " + name;
-    case Role::cutter:
-      return "cutter " + name;
-    case Role::fixture:
-      return "fixture " + name;
-    case Role::spindle:
-      return "spindle " + name;
-    case Role::probe:
-      return "probe " + name;
-    case Role::stock:
-      return "stock " + name;
-    case Role::part:
-      return "part " + name;
-    case Role::machine:
-      return "machine part " + name;
-  }
-  return name;
-}
 
 std::string during(const plan::Segment& segment) {
   if (segment.kind == plan::MotionKind::blend)
@@ -106,55 +45,6 @@ std::string during(const plan::Segment& segment) {
       return "at standstill";
   }
   return "";
-}
-
-// Link poses at times of one step, worked out once however many pairs ask.
-class PoseCache {
- public:
-  PoseCache(const machine::Machine& machine, const motion::JointMotion& motion)
-      : machine_(machine), motion_(motion) {}
-
-  const LinkPoses* at(double t) {
-    for (Entry& entry : entries_)
-      if (entry.filled && entry.t == t) return entry.reachable ? &entry.poses : nullptr;
-    Entry& entry = entries_[next_++ % entries_.size()];
-    entry.filled = true;
-    entry.t = t;
-    const auto q = motion_.at(t);
-    entry.reachable = q.has_value();
-    if (q) machine::forward(machine_, *q, entry.poses);
-    return entry.reachable ? &entry.poses : nullptr;
-  }
-
-  // Travel of every couple within [ta, tb]; null when no bound is known.
-  const std::vector<double>* travel(double ta, double tb) {
-    if (!(known_ && ta == ta_ && tb == tb_)) {
-      travel_.assign(machine_.tree().size(), 0);
-      bounded_ = motion_.travel_bound(ta, tb, travel_);
-      known_ = true;
-      ta_ = ta;
-      tb_ = tb;
-    }
-    return bounded_ ? &travel_ : nullptr;
-  }
-
- private:
-  struct Entry {
-    bool filled = false, reachable = false;
-    double t = 0;
-    LinkPoses poses;
-  };
-  const machine::Machine& machine_;
-  const motion::JointMotion& motion_;
-  std::array<Entry, 32> entries_;
-  std::size_t next_ = 0;
-  bool known_ = false, bounded_ = false;
-  double ta_ = 0, tb_ = 0;
-  std::vector<double> travel_;
-};
-
-Pose mesh_pose(const Body& body, const LinkPoses& poses) {
-  return poses.X_WL[static_cast<std::size_t>(index(body.link))] * body.X_LB;
 }
 
 class CollisionCheck final : public Check {
@@ -203,54 +93,11 @@ class CollisionCheck final : public Check {
 
  private:
   void choose_pairs(const Scene& scene) {
-    std::vector<Pair> before = std::move(pairs_);
-    std::vector<std::string> names_before = std::move(pair_names_);
-    pairs_.clear();
-    pair_names_.clear();
-    exclusions_.clear();
-    const auto& bodies = scene.bodies();
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-        if (!watched(scene, bodies[i], bodies[j])) continue;
-        const bool swap = rank(bodies[j].body.role) < rank(bodies[i].body.role);
-        Pair pair;
-        pair.a = swap ? j : i;
-        pair.b = swap ? i : j;
-        // What was left out at the start stays out when the tool changes.
-        const std::string name = bodies[pair.a].body.name + "\n" + bodies[pair.b].body.name;
-        for (std::size_t k = 0; k < before.size(); ++k)
-          if (names_before[k] == name) pair.left_out = before[k].left_out;
-        pairs_.push_back(pair);
-        pair_names_.push_back(name);
-      }
+    WatchedPairs watched = watched_pairs(scene, pairs_);
+    pairs_ = std::move(watched.pairs);
+    exclusions_ = std::move(watched.exclusions);
     most_pairs_ = std::max(most_pairs_, pairs_.size());
-    most_bodies_ = std::max(most_bodies_, bodies.size());
-  }
-
-  bool watched(const Scene& scene, const SceneBody& a, const SceneBody& b) {
-    if (!a.collision || !b.collision || a.body.link == b.body.link) return false;
-    const Role ra = a.body.role, rb = b.body.role;
-    if (ra == Role::part || rb == Role::part) return false;
-    if (is_tool(ra) && is_tool(rb)) return false;
-    if (ra == Role::fixture && rb == Role::fixture) return false;
-    const auto& links = scene.machine().links();
-    const machine::Link& la = links[static_cast<std::size_t>(index(a.body.link))];
-    const machine::Link& lb = links[static_cast<std::size_t>(index(b.body.link))];
-    const bool adjacent =
-        (la.joint >= 0 && la.parent == b.body.link) || (lb.joint >= 0 && lb.parent == a.body.link);
-    if (adjacent && is_machine(ra) && is_machine(rb)) return false;
-    for (const machine::Exclusion& e : scene.machine().exclusions()) {
-      const auto names = [&](const std::string& name, const SceneBody& body,
-                             const machine::Link& link) {
-        return name == body.body.name || name == link.name ||
-               body.body.name.starts_with(name + "/");
-      };
-      if ((names(e.a, a, la) && names(e.b, b, lb)) || (names(e.a, b, lb) && names(e.b, a, la))) {
-        exclusions_.push_back(a.body.name + " – " + b.body.name + ": " + e.reason);
-        return false;
-      }
-    }
-    return true;
+    most_bodies_ = std::max(most_bodies_, scene.bodies().size());
   }
 
   // All pairs at a pose that does not change: the start, or a new tool in place.
@@ -296,6 +143,7 @@ class CollisionCheck final : public Check {
     const SceneBody& b = bodies[pair.b];
     const double t1 = step.motion.t1();
     const auto relative = relative_motion(a, b, cache);
+    PairAt at(a, b, cache, cost_);
     const collide::ProofOptions proof{.margin = options_.near,
                                       .resolution = step.scene.machine().collision_tolerance(),
                                       .touch = options_.touch};
@@ -313,24 +161,23 @@ class CollisionCheck final : public Check {
                        clear_time_ += t1 - t;
                        // Parting after a contact is no near miss of its own.
                        const bool parting = pair.contact_end >= 0 && t <= pair.contact_end + 1e-6;
-                       if (parting &&
-                           distance_at(a, b, t, near.distance_high + 3 * proof.resolution, cache) <=
-                               near.distance_high + 2 * proof.resolution)
+                       if (parting && at.distance(t, near.distance_high + 3 * proof.resolution) <=
+                                          near.distance_high + 2 * proof.resolution)
                          return;
                        report_near(step, a.body, b.body, near, cache, out);
                      },
                      [&](const collide::Hit& hit) {
-                       next = row + 1 == most_rows ? t1 : end_of_contact(a, b, hit, t1, cache);
+                       next = row + 1 == most_rows ? t1 : at.end_of_contact(hit, t1);
                        clear_time_ += hit.t_first - t;
                        hit_time_ += next - hit.t_first;
                        pair.contact_end = next;
-                       report_hit(step, a, b, hit, next, cache, out);
+                       report_hit(step, a.body, b.body, hit, next, at, cache, out);
                      },
                      [&](const collide::Unresolved& gap) {
                        // Bodies that come apart are within the resolution for a moment: that is
                        // the end of the contact that was told already.
                        if (pair.contact_end >= 0 && gap.t0 <= pair.contact_end + 1e-6) {
-                         next = end_of_touch(a, b, t, t1, proof.resolution, cache);
+                         next = at.end_of_touch(t, t1, proof.resolution);
                          hit_time_ += next - t;
                          pair.contact_end = next;
                          return;
@@ -365,57 +212,6 @@ class CollisionCheck final : public Check {
     };
   }
 
-  // When the bodies come apart after hit.t_overlap, found by stepping and halving; t1 if they
-  // don't.
-  double end_of_contact(const SceneBody& a, const SceneBody& b, const collide::Hit& hit, double t1,
-                        PoseCache& cache) {
-    constexpr int steps = 64;
-    double inside = hit.t_overlap;
-    for (int i = 1; i <= steps; ++i) {
-      const double t = hit.t_overlap + (t1 - hit.t_overlap) * i / steps;
-      if (overlap_at(a, b, t, cache)) {
-        inside = t;
-        continue;
-      }
-      double outside = t;
-      while (outside - inside > 1e-6) {
-        const double middle = 0.5 * (inside + outside);
-        (overlap_at(a, b, middle, cache) ? inside : outside) = middle;
-      }
-      return outside;
-    }
-    return t1;
-  }
-
-  // When bodies that part are clearly apart, after time t; t1 if they aren't until then.
-  double end_of_touch(const SceneBody& a, const SceneBody& b, double t, double t1,
-                      double resolution, PoseCache& cache) {
-    constexpr int steps = 256;
-    for (int i = 1; i <= steps; ++i) {
-      const double at = t + (t1 - t) * i / steps;
-      if (distance_at(a, b, at, 3 * resolution, cache) > 2 * resolution) return at;
-    }
-    return t1;
-  }
-
-  // Distance at time t, looked for up to `bound`; 0 for a pose that doesn't exist.
-  double distance_at(const SceneBody& a, const SceneBody& b, double t, double bound,
-                     PoseCache& cache) {
-    const LinkPoses* poses = cache.at(t);
-    ++cost_.distance_queries;
-    if (!poses) return 0;
-    return collide::distance(*a.collision, mesh_pose(a.body, *poses), *b.collision,
-                             mesh_pose(b.body, *poses), bound)
-        .value;
-  }
-
-  bool overlap_at(const SceneBody& a, const SceneBody& b, double t, PoseCache& cache) {
-    const LinkPoses* poses = cache.at(t);
-    ++cost_.overlap_queries;
-    return poses && collide::overlap(*a.collision, mesh_pose(a.body, *poses), *b.collision,
-                                     mesh_pose(b.body, *poses));
-  }
-
   static void name_pair(Finding& f, const Body& a, const Body& b) {
     f.body_a = a.name;
     f.body_b = b.name;
@@ -423,16 +219,26 @@ class CollisionCheck final : public Check {
         std::string(machine::to_string(a.role)) + "-" + std::string(machine::to_string(b.role));
   }
 
-  void report_hit(const Step& step, const SceneBody& a, const SceneBody& b, const collide::Hit& hit,
-                  double t_end, PoseCache& cache, Findings& out) {
+  void report_hit(const Step& step, const Body& a, const Body& b, const collide::Hit& hit,
+                  double t_end, PairAt& at, PoseCache& cache, Findings& out) {
     Finding f = finding_at(Kind::collision, step, hit.t_first);
-    name_pair(f, a.body, b.body);
-    f.message = in_words(a.body) + " hits " + in_words(b.body) + " " + during(step.segment);
+    name_pair(f, a, b);
+    f.message = in_words(a) + " hits " + in_words(b) + " " + during(step.segment);
     f.t_worst = hit.t_overlap;
     f.t_end = t_end;
     f.u_first = fraction_at(step, f.t_first);
     f.u_end = fraction_at(step, f.t_end);
-    if (detailed_++ < options_.detailed) measure_depth(a, b, hit, t_end, cache, f);
+    if (detailed_++ < options_.detailed)
+      if (const auto worst = at.deepest(hit.t_overlap, t_end, options_.touch)) {
+        f.depth = worst->penetration.depth;
+        f.depth_bound = options_.touch;
+        f.normal = worst->penetration.direction;
+        f.points = {worst->penetration.point};
+        f.t_worst = worst->t;
+        if (const auto lift = is_tool(a.role) ? at.axial_retract(worst->t) : std::nullopt)
+          f.remedy = "at its worst the tool must come up by " + fixed(*lift, 2) +
+                     " mm along its axis to clear; retract first, or raise the clearance plane";
+      }
     if (const auto state = step.motion.state_at(f.t_worst)) {
       f.joints_worst = state->q;
       f.tip = state->tip;
@@ -440,56 +246,8 @@ class CollisionCheck final : public Check {
     }
     if (f.points.empty())
       if (const LinkPoses* poses = cache.at(hit.t_overlap))
-        f.points = {mesh_pose(a.body, *poses) * hit.point};
+        f.points = {mesh_pose(a, *poses) * hit.point};
     out.add(f);
-  }
-
-  // Deepest of several times of the contact, then the lift along the tool axis that clears it.
-  void measure_depth(const SceneBody& a, const SceneBody& b, const collide::Hit& hit, double t_end,
-                     PoseCache& cache, Finding& f) {
-    constexpr int samples = 8;
-    for (int i = 0; i <= samples; ++i) {
-      const double t = hit.t_overlap + (t_end - hit.t_overlap) * i / samples;
-      const LinkPoses* poses = cache.at(t);
-      if (!poses) continue;
-      const Pose X_WA = mesh_pose(a.body, *poses), X_WB = mesh_pose(b.body, *poses);
-      const Vec3 axis = X_WA.linear().col(2);
-      const auto depth =
-          collide::penetration(*a.collision, X_WA, *b.collision, X_WB, {axis}, options_.touch);
-      if (depth.depth <= f.depth.value_or(0)) continue;
-      f.depth = depth.depth;
-      f.depth_bound = options_.touch;
-      f.normal = depth.direction;
-      f.points = {depth.point};
-      f.t_worst = t;
-    }
-    if (!is_tool(a.body.role)) return;
-    if (const LinkPoses* poses = cache.at(f.t_worst))
-      if (const auto lift =
-              axial_retract(a, mesh_pose(a.body, *poses), b, mesh_pose(b.body, *poses)))
-        f.remedy = "at its worst the tool must come up by " + fixed(*lift, 2) +
-                   " mm along its axis to clear; retract first, or raise the clearance plane";
-  }
-
-  std::optional<double> axial_retract(const SceneBody& a, const Pose& X_WA, const SceneBody& b,
-                                      const Pose& X_WB) {
-    const Vec3 axis = X_WA.linear().col(2);
-    const auto hits_at = [&](double lift) {
-      ++cost_.overlap_queries;
-      return collide::overlap(*a.collision, translation(lift * axis) * X_WA, *b.collision, X_WB);
-    };
-    constexpr double farthest = 400, step = 2;  // mm
-    double low = 0, high = step;
-    while (hits_at(high)) {
-      low = high;
-      high += step;
-      if (high > farthest) return std::nullopt;
-    }
-    while (high - low > 0.005) {
-      const double middle = 0.5 * (low + high);
-      (hits_at(middle) ? low : high) = middle;
-    }
-    return high;
   }
 
   void report_near(const Step& step, const Body& a, const Body& b, const collide::Near& near,
@@ -534,7 +292,6 @@ class CollisionCheck final : public Check {
   JointVector start_joints_;
   bool pending_start_ = false;
   std::vector<Pair> pairs_;
-  std::vector<std::string> pair_names_;  // by index of pairs_
   std::vector<std::string> exclusions_;
   std::size_t most_pairs_ = 0, most_bodies_ = 0, detailed_ = 0;
   collide::ProofCost cost_;

@@ -1,10 +1,10 @@
-#include "report/text.h"
+// Text from files on its way out: valid UTF-8, and nothing in it that acts.
 
 #include <cstdint>
 
-#include "base/base.h"
+#include "base/text.h"
 
-namespace aircut::report {
+namespace aircut {
 
 namespace {
 
@@ -75,6 +75,4 @@ std::string harmless(std::string_view text) {
   return out;
 }
 
-std::string plain(std::string_view text) { return harmless(printable(text)); }
-
-}  // namespace aircut::report
+}  // namespace aircut
