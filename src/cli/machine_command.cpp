@@ -89,7 +89,10 @@ void check_at_home(const Job& job, Diagnostics& out) {
   options.near = 0;
   sim::Simulator simulator(job.machine, job.tools, job.start, options);
   simulator.start();
-  simulator.step(plan::Segment{});
+  plan::Segment still;
+  if (const auto tip = job.machine->kinematics().forward(job.start, {}))
+    still.path = plan::Hold{*tip};
+  simulator.step(still);
   for (const sim::Finding& f : simulator.finish().findings) {
     Diagnostic d{f.severity, std::string(sim::to_string(f.kind)), f.message};
     if (f.depth) d.notes.push_back({"depth", fixed(*f.depth, 3) + " mm"});

@@ -64,8 +64,17 @@ struct VectorFile {
 
 std::vector<VectorFile> vector_files() {
   const std::vector<std::string> glide = {"s1", "s2", "s3"};
+  const std::vector<std::string> five = {"x", "y", "z", "A", "B"};
+  const std::vector<std::string> arm5 = {"t1", "t2", "t3", "t4", "t5"};
   return {{"ox_glide_crossed", "ox-glide-crossed", {"x", "y", "z"}, glide, true},
-          {"ox_glide_extended", "ox-glide-extended", {"x", "y", "z"}, glide, true}};
+          {"ox_glide_extended", "ox-glide-extended", {"x", "y", "z"}, glide, true},
+          {"robot_horizontal_t4_blocked", "lola50-horizontal", five, arm5, false},
+          {"robot_vertical_t6_blocked", "lola50-vertical", five, arm5, false},
+          {"robot_6r",
+           "lola50-6r",
+           {"x", "y", "z", "A", "B", "C"},
+           {"t1", "t2", "t3", "t4", "t5", "t6"},
+           false}};
 }
 
 // A row per vector.

@@ -1,0 +1,1 @@
+include <../../lola50-vertical/scad/forearm.scad>

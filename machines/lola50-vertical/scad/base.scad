@@ -1,0 +1,3 @@
+include <params.scad>
+
+in_bed() base_body();

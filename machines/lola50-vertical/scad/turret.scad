@@ -1,0 +1,3 @@
+include <params.scad>
+
+in_bed() turret_body();
