@@ -38,13 +38,10 @@ void add_program(CLI::App* app, ProgramArguments& a, std::vector<std::string>& s
 }
 
 void add_output(CLI::App* app, OutputArguments& o, std::string& fail_on) {
-  const std::map<std::string, Format> formats = {{"human", Format::human},
-                                                 {"json", Format::json},
-                                                 {"jsonl", Format::jsonl},
-                                                 {"gcc", Format::gcc},
-                                                 {"sarif", Format::sarif},
-                                                 {"junit", Format::junit},
-                                                 {"github", Format::github}};
+  const std::map<std::string, Format> formats = {
+      {"human", Format::human},  {"json", Format::json},   {"jsonl", Format::jsonl},
+      {"gcc", Format::gcc},      {"sarif", Format::sarif}, {"junit", Format::junit},
+      {"github", Format::github}};
   app->add_option("--format", o.format, "form of the findings on stdout")
       ->transform(CLI::CheckedTransformer(formats).description(""))
       ->type_name("human|json|jsonl|gcc|sarif|junit|github");

@@ -45,7 +45,7 @@ int trace_command(const TraceArguments& a) {
   Diagnostics diagnostics;
   interp::Interpreter interpreter(**program, job.tools, job.parameters, options,
                                   sub_reader(job.sources), diagnostics);
-  canon::Rs274Writer writer(options.machine_unit);
+  canon::Rs274Writer writer(options.start_unit);
   std::string out;
   constexpr std::size_t flush_at = 1 << 16;
   while (const auto command = interpreter.next()) {
@@ -67,8 +67,13 @@ int trace_command(const TraceArguments& a) {
       out.clear();
     }
   }
-  std::fwrite(out.data(), 1, out.size(), stdout);
-  std::fflush(stdout);
+  if (reference) out += writer.finish();
+  const bool written =
+      std::fwrite(out.data(), 1, out.size(), stdout) == out.size() && std::fflush(stdout) == 0;
+  if (!written) {
+    print_error(make_error("output_failed", "can't write to standard output"), a.color);
+    return code(ExitCode::unknown);
+  }
   print_errors(diagnostics, a.color);
   if (diagnostics.errors() > 0) return code(ExitCode::fail);
   return code(interpreter.statistics().limit_reached ? ExitCode::unknown : ExitCode::pass);
