@@ -231,7 +231,13 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
           [&](const canon::G92Offset&) { return still(command); },
           [&](const canon::ToolLengthOffset& c) {
             merger_.stop();
-            // The machine stands still; what changes is where the tip is.
+            // The machine stands still; what changes is where the tip is: along Z, as long as the
+            // tool stands upright in M. The interpreter knows no other direction.
+            if (const auto axis = machine_.kinematics().tool_axis(tip_);
+                axis && !((*axis - Vec3::UnitZ()).norm() < 1e-9) &&
+                (tool_offset_ - c.offset).value != AxisValues{}.value)
+              return no_model(command,
+                              "a change of the tool length offset while the tool is tilted");
             tip_ = tip_ + tool_offset_ - c.offset;
             tool_offset_ = c.offset;
             return barrier(command);

@@ -169,6 +169,21 @@ TEST_F(Kin, SaysWhereTheJacobianIsNotFinite) {
   EXPECT_EQ(r.out, "error: the joints would need an infinite speed there (a singular pose)\n");
 }
 
+// The tip moves along the tool then, which the interpreter does not know: never a pass.
+TEST_F(Kin, ALengthOffsetThatChangesWhileTheToolIsTiltedIsNoPass) {
+  std::ofstream(folder_ / "tilted.ngc")
+      << "T1 M6\nG0 X0 Y0 Z100 A20 B0\nG43 H1\nG1 X1 F1000\nM30\n";
+  const std::string command = "cd " AIRCUT_SOURCE_DIR " && timeout 60 " AIRCUT_BINARY_DIR
+                              "/bin/aircut run -m lola50-vertical " +
+                              (folder_ / "tilted.ngc").string() + " >" +
+                              (folder_ / "out").string() + " 2>&1";
+  const int status = std::system(command.c_str());
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 2) << text_of("out");
+  EXPECT_NE(text_of("out").find("tool length offset while the tool is tilted"), std::string::npos)
+      << text_of("out");
+}
+
 TEST_F(Kin, EndsWith2WhenThereIsNothingToAnswer) {
   EXPECT_EQ(kin("ik -m ox-glide-crossed", "").code, 2);
   EXPECT_EQ(kin("ik -m no-such-machine", "1 2 3\n").code, 2);
