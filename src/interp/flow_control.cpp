@@ -253,7 +253,8 @@ void Interpreter::Impl::loop_limit(const Frame& frame, const std::string& which)
   const std::string values = tested_values(frame, head);
   if (!values.empty()) message += "; its condition sees " + values;
   message += "; does it ever end?";
-  diagnostics_.error("loop_limit", at, std::move(message));
+  // A limit of ours, not of the control: the program is not wrong, it could not be checked.
+  diagnostics_.warning("loop_limit", at, std::move(message));
   statistics_.limit_reached = true;
   stop();
 }

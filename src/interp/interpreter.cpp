@@ -179,8 +179,10 @@ bool Interpreter::Impl::count_block() {
     loop_limit(*frame, which);
     return false;
   }
-  report("limit_reached", {0, block_->length},
-         "the limit of " + which + " is reached; raise it if the program is meant to be so long");
+  warn(Fault{
+      "limit_reached",
+      {0, block_->length},
+      "the limit of " + which + " is reached; raise it if the program is meant to be so long"});
   statistics_.limit_reached = true;
   stop();
   return false;

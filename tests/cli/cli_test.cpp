@@ -233,6 +233,18 @@ TEST_F(Cli, RefusesProgramsThatAreNotPrograms) {
   }
 }
 
+TEST_F(Cli, IsUnknownWhenALoopDoesNotEnd) {
+  put("endless.ngc", "G21\no1 while [1]\n#1=[#1+1]\no1 endwhile\nM2\n");
+  const std::string limit = path("endless.ngc") + " --max-blocks 5000";
+  for (const std::string& job :
+       {"run " + limit + " -m mill3", "check " + limit, "trace " + limit}) {
+    const Outcome r = aircut(job);
+    EXPECT_EQ(r.code, 2) << job << r.out << r.err;
+    EXPECT_TRUE(r.says("[loop_limit]")) << r.out << r.err;
+    EXPECT_TRUE(r.says("endless.ngc:2:1")) << r.out << r.err;
+  }
+}
+
 TEST_F(Cli, RefusesToWriteWhereItMustNot) {
   fs::create_directory(path("full"));
   put("full/mine.txt", "keep me");

@@ -31,7 +31,8 @@ std::map<std::uint32_t, Expectation> by_line(const Outcome& outcome) {
   }
   for (const Outcome::Found& found : outcome.found) {
     auto& line = lines[found.line];
-    if (found.severity == Severity::error) line.errors.push_back(found.kind);
+    if (found.severity == Severity::error || found.kind == "loop_limit")
+      line.errors.push_back(found.kind);
     if (found.severity == Severity::warning) line.warnings.push_back(found.kind);
   }
   return lines;
