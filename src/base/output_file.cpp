@@ -22,6 +22,9 @@ Diagnostic output_failed(const std::string& path, const std::string& why) {
 }  // namespace
 
 Expected<OutputFile> OutputFile::create(const std::string& path) {
+  struct stat info {};
+  if (::lstat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode))
+    return unexpected(output_failed(path, "it exists and is not a regular file"));
   OutputFile out;
   out.path_ = path;
   out.temporary_ = path + ".partial-XXXXXX";

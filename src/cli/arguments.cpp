@@ -34,6 +34,10 @@ void add_program(CLI::App* app, ProgramArguments& a, std::vector<std::string>& s
   app->add_flag("--block-delete", a.block_delete, "skip blocks that begin with /");
   app->add_flag("--optional-stop", a.optional_stop, "M1 stops");
   app->add_option("--max-blocks", a.max_blocks, "blocks executed before the run ends as unknown")
+      ->check([](const std::string& text) {
+        return text.starts_with("-") ? std::string("--max-blocks takes a whole number above 0")
+                                     : "";
+      })
       ->type_name("N");
 }
 
@@ -345,6 +349,12 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   const auto pixels = picture_size(size);
   if (!pixels) return usage_error(pixels.error(), active()->get_name());
 
+  for (const double value : {run.near, run.period, run.max_time.value_or(0)})
+    if (!std::isfinite(value) || value < 0)
+      return usage_error(
+          make_error("usage",
+                     "--near, --period and --max-sim-time take plain numbers of 0 or more"),
+          active()->get_name());
   if (c_run->parsed()) {
     run.program.set = *sets;
     run.output.fail_on = severity_of(fail_on);

@@ -44,7 +44,13 @@ Expected<const SourceText*> read_standard_input(SourceMap& sources) {
   std::string text;
   char buffer[65536];
   std::size_t n = 0;
-  while ((n = std::fread(buffer, 1, sizeof buffer, stdin)) > 0) text.append(buffer, n);
+  constexpr std::size_t largest = std::size_t{1} << 30;
+  while ((n = std::fread(buffer, 1, sizeof buffer, stdin)) > 0) {
+    text.append(buffer, n);
+    if (text.size() > largest)
+      return unexpected(make_error(
+          "input", "standard input is longer than 1 GiB; write the program to a file and name it"));
+  }
   if (std::ferror(stdin)) return unexpected(make_error("input", "can't read standard input"));
   return &sources.add("-", std::move(text));
 }

@@ -133,6 +133,12 @@ int run_command(const RunArguments& a) {
   if (!frames) return fail(frames.error());
   if (a.folder.empty() && !a.frames.empty() && wants_frames(a))
     return fail(make_error("usage", "--frames needs -o DIR to write into"));
+  if (a.log == "-")
+    return fail(make_error("usage", "--log - is not supported: name a file, or null for none"));
+  if (std::error_code error;
+      !a.log.empty() && a.log != "null" && !a.force && fs::exists(a.log, error))
+    return fail(make_error("output_failed",
+                           "'" + printable(a.log) + "' exists; name another file, or use --force"));
   Job job;
   const auto program = open_program(job.sources, a.program.program);
   if (!program) return fail(program.error());
@@ -199,10 +205,20 @@ int run_command(const RunArguments& a) {
   report.settings = {{"near_mm", a.near},
                      {"period_s", a.period},
                      {"resolution_mm", machine.collision_tolerance()}};
+  report.summary = result.summary;
   report.diagnostics = job.diagnostics.list();
+  if (checks.collision) {
+    // An open mesh is checked by its surface only; what enters through a hole is not seen.
+    Diagnostics model;
+    machine::check_model(machine, model);
+    for (const Diagnostic& d : model.list())
+      if (d.kind == "mesh_defect") {
+        report.diagnostics.push_back(d);
+        report.summary.unchecked.push_back(d.message);
+      }
+  }
   for (const Diagnostic& d : diagnostics.list()) report.diagnostics.push_back(d);
   report.findings = std::move(result.findings);
-  report.summary = result.summary;
   for (int j = 0; j < machine.joint_count(); ++j) {
     const machine::Joint& joint = machine.joint(machine::JointId{j});
     report.joint_names.push_back(joint.name);

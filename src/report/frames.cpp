@@ -427,15 +427,17 @@ Expected<std::vector<std::string>> FrameMaker::write(const std::string& folder,
       for (render::DrawBody& body : drawn.bodies)
         body.highlight = body.name == f.body_a || body.name == f.body_b;
       for (const Vec3& point : f.points) drawn.markers.push_back({point});
-      const double aspect = static_cast<double>(impl.options.size.width) / impl.options.size.height;
       render::Camera camera;
       if (!f.points.empty()) {
         constexpr double span = 260;  // mm across: a tool, its holder and what it met
         camera = renderer->camera_for_finding(drawn.bodies, f.points.front(), span);
       } else {
-        const auto whole = render::camera_by_name("iso", impl.whole_box(drawn), aspect);
-        if (!whole) return unexpected(whole.error());
-        camera = *whole;
+        // No contact: the place on the path, seen as the other frames see the work.
+        drawn.markers.push_back(
+            {impl.X_WM(f.joints_worst) * Vec3(f.tip[Axis::x], f.tip[Axis::y], f.tip[Axis::z])});
+        const auto work = impl.camera_for(shot, drawn);
+        if (!work) return unexpected(work.error());
+        camera = *work;
       }
       const render::Image image = renderer->draw(drawn, camera);
       if (auto done = save(name, image); !done) return unexpected(done.error());

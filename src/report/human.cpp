@@ -153,8 +153,9 @@ Diagnostic to_diagnostic(const sim::Finding& f, const RunReport& report) {
                                     ") deepest at t = " + seconds(f.t_worst)});
   if (f.depth && *f.depth <= 0)
     d.notes.push_back(
-        {"distance", fixed(-*f.depth, 3) + " mm (± " + fixed(f.depth_bound.value_or(0), 3) +
-                         "); near misses are told below " + shortest(f.limit.value_or(0)) + " mm"});
+        {"distance",
+         fixed(-*f.depth, 3) + " mm (± " + fixed(f.depth_bound.value_or(0), 3) + ")" +
+             (f.limit ? "; near misses are told below " + shortest(*f.limit) + " mm" : "")});
   if (!f.points.empty())
     d.notes.push_back({"point", "X " + fixed(f.points[0].x(), 2) + "  Y " +
                                     fixed(f.points[0].y(), 2) + "  Z " + fixed(f.points[0].z(), 2) +

@@ -1,5 +1,6 @@
 #include "report/messages.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -73,7 +74,10 @@ bool fails(const Message& message, const RunReport& report) {
 
 std::vector<std::string> unchecked_besides_findings(const RunReport& report) {
   std::vector<std::string> out = report.summary.unchecked;
-  if (report.summary.interrupted)
+  const auto told = [](const std::string& what) {
+    return what.find("interrupted") != std::string::npos;
+  };
+  if (report.summary.interrupted && std::none_of(out.begin(), out.end(), told))
     out.push_back("the run was interrupted; the rest was not checked");
   if (report.summary.findings_dropped > 0)
     out.push_back(std::to_string(report.summary.findings_dropped) + " more finding" +

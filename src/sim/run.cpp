@@ -7,7 +7,7 @@ namespace aircut::sim {
 namespace {
 
 std::string from_line_on(const SourceSpan& span, const std::string& why) {
-  return "everything from " + span.place() + " on: " + why;
+  return (span ? "everything from " + span.place() + " on: " : "the whole program: ") + why;
 }
 
 }  // namespace
@@ -21,15 +21,16 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
   const auto drain = [&] {
     while (auto segment = planner.take()) {
       if (!moving) return;
-      simulator.step(*segment);
       last = segment->command.span;
-      if (simulator.stopped()) {
-        simulator.not_checked(from_line_on(last, "the machine can't get past this point"));
-        moving = false;
-      }
-      if (moving && segment->t_end() > options.max_time) {
+      if (segment->t_end() > options.max_time) {
         simulator.not_checked(from_line_on(
             last, "the limit of simulated time is reached (" + shortest(options.max_time) + " s)"));
+        moving = false;
+        return;
+      }
+      simulator.step(*segment);
+      if (simulator.stopped()) {
+        simulator.not_checked(from_line_on(last, "the machine can't get past this point"));
         moving = false;
       }
       if (options.progress) options.progress(segment->t_end(), last);
@@ -66,7 +67,7 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
   drain();
   if (interrupted) simulator.not_checked(from_line_on(last, "the run was interrupted"));
   if (interpreter.statistics().limit_reached)
-    simulator.not_checked("the rest of the program: a limit on its length was reached");
+    simulator.not_checked("the rest of the program: the interpreter stopped at a limit");
 
   Simulator::Result result = simulator.finish();
   result.summary.interrupted = interrupted;

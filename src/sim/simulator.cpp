@@ -60,6 +60,14 @@ void Simulator::step(const plan::Segment& segment) {
     }
     for (const auto& check : checks_) check->scene_changed(step, joints_, findings_);
   }
+  if (const auto* wait = std::get_if<canon::WaitInput>(&segment.command.action)) {
+    Finding f = finding_at(Kind::not_checked, step, segment.t_end());
+    f.message = std::string("M66 reads ") + (wait->analog ? "analog" : "digital") + " input " +
+                std::to_string(wait->index) + ", which has no model here: it is taken as 0";
+    f.remedy = "what follows was checked for that value only";
+    f.makes_unknown = true;
+    findings_.add(f);
+  }
   if (const auto* code = std::get_if<canon::UserCode>(&segment.command.action))
     user_code(step, *code);
 }

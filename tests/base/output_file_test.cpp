@@ -53,6 +53,15 @@ TEST_F(OutputFileTest, SaysWhyAFolderCantBeWritten) {
   EXPECT_NE(file.error().message.find("No such file"), std::string::npos);
 }
 
+TEST_F(OutputFileTest, NeverReplacesWhatIsNoRegularFile) {
+  fs::create_symlink("elsewhere", folder_ / "link");
+  for (const std::string& path : {std::string("/dev/null"), (folder_ / "link").string()}) {
+    const auto file = OutputFile::create(path);
+    ASSERT_FALSE(file) << path;
+    EXPECT_NE(file.error().message.find("not a regular file"), std::string::npos);
+  }
+}
+
 TEST_F(OutputFileTest, ReportsAFolderThatVanished) {
   auto file = OutputFile::create((folder_ / "a.txt").string());
   ASSERT_TRUE(file);

@@ -266,6 +266,39 @@ TEST_F(Cli, RefusesToWriteWhereItMustNot) {
   EXPECT_TRUE(nowhere.says("can't write")) << nowhere.err;
 }
 
+TEST_F(Cli, ReplacesNoFileByALogWithoutBeingTold) {
+  put("mine.ngc", text_of(AIRCUT_SOURCE_DIR "/programs/overtravel.ngc"));
+  const std::string job = "run " + path("mine.ngc") + " -m mill3 -q --log ";
+  EXPECT_EQ(aircut(job + path("mine.ngc")).code, 2);
+  EXPECT_EQ(text_of(path("mine.ngc")), text_of(AIRCUT_SOURCE_DIR "/programs/overtravel.ngc"));
+  EXPECT_EQ(aircut(job + "/dev/full --force").code, 2);
+  EXPECT_EQ(aircut(job + "-").code, 2);
+  EXPECT_EQ(aircut(job + path("joints.csv")).code, 1);
+}
+
+TEST_F(Cli, IsNotAPassWhenStandardOutputIsFull) {
+  const int status = std::system("cd " AIRCUT_SOURCE_DIR " && " AIRCUT_BINARY_DIR
+                                 "/bin/aircut trace programs/flange.ngc >/dev/full 2>/dev/null");
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  const int info = std::system("cd " AIRCUT_SOURCE_DIR " && " AIRCUT_BINARY_DIR
+                               "/bin/aircut machine info -m mill3 >/dev/full 2>/dev/null");
+  EXPECT_EQ(WEXITSTATUS(info), 2);
+}
+
+TEST_F(Cli, IsUnknownWithAnOpenMesh) {
+  // The box of tests/support/box_machine.h would do; here a shipped machine loses triangles.
+  fs::copy(AIRCUT_SOURCE_DIR "/machines/mill3", path("open"), fs::copy_options::recursive);
+  std::string stl = text_of(path("open/meshes/vise-fixed-jaw.stl"));
+  const auto triangles = static_cast<std::uint32_t>((stl.size() - 84) / 50 - 2);
+  for (int i = 0; i < 4; ++i)
+    stl[80 + static_cast<std::size_t>(i)] = static_cast<char>(triangles >> 8 * i & 255);
+  stl.resize(84 + 50 * std::size_t{triangles});
+  put("open/meshes/vise-fixed-jaw.stl", stl);
+  const Outcome r = aircut("run programs/bracket.ngc -m " + path("open"));
+  EXPECT_EQ(r.code, 2) << r.out << r.err;
+  EXPECT_TRUE(r.says("[mesh_defect]")) << r.out;
+}
+
 TEST_F(Cli, WritesNothingHalfWhenAnInputIsWrong) {
   const Outcome r = aircut("run nowhere.ngc -m mill3 -o " + path("out"));
   EXPECT_EQ(r.code, 2);

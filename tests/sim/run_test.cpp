@@ -38,6 +38,34 @@ TEST(Run, TakesTheMachinesWordForUserCodes) {
   EXPECT_EQ(r.verdict, Verdict::pass);
 }
 
+TEST(Run, IsUnknownWhenAnInputIsRead) {
+  BoxMachine box;
+  const RunResult r =
+      run_program("G21 G90 G61\nM66 P0 L0\nG0 X10\nM2\n", box.machine(), {}, box.sources());
+  EXPECT_TRUE(r.only(Kind::not_checked).makes_unknown);
+  EXPECT_EQ(r.verdict, Verdict::unknown);
+}
+
+TEST(Run, IsUnknownWhenThereIsNothingToCollide) {
+  BoxMachine box(
+      "[collision]\nignore = [{ bodies = [\"post\", \"plate\"], reason = \"all there is\" }]\n");
+  const RunResult r = run_program("G21 G90\nG0 X10\nM2\n", box.machine(), {}, box.sources());
+  EXPECT_EQ(r.verdict, Verdict::unknown);
+  EXPECT_NE(r.summary.unchecked.at(0).find("no two bodies"), std::string::npos);
+}
+
+TEST(Run, SurvivesCoordinatesBeyondAllReason) {
+  BoxMachine box;
+  for (const char* x : {"1000000000000", "-100000000000", "1000000000000000000000000000000"}) {
+    const RunResult r = run_program("G21 G90\nG0 X" + std::string(x) + "\nM2\n", box.machine(), {},
+                                    box.sources(), {}, 1e300);
+    EXPECT_NE(r.verdict, Verdict::pass) << x;
+    const RunResult limited =
+        run_program("G21 G90\nG0 X" + std::string(x) + "\nM2\n", box.machine(), {}, box.sources());
+    EXPECT_NE(limited.verdict, Verdict::pass) << x;
+  }
+}
+
 TEST(Run, FailsForAToolThatIsNotInTheTable) {
   BoxMachine box;
   const RunResult r = run_program("G21 G90 G61\nT7 M6\nM2\n", box.machine(), {}, box.sources());

@@ -89,6 +89,9 @@ class CollisionCheck final : public Check {
     summary.collision.hit = total > 0 ? hit_time_ / total : 0;
     summary.collision.unresolved = total > 0 ? unresolved_time_ / total : 0;
     summary.collision.exclusions = exclusions_;
+    if (most_pairs_ == 0)
+      summary.unchecked.push_back(
+          "collisions: no two bodies with meshes that move against each other");
   }
 
  private:

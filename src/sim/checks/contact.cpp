@@ -36,6 +36,7 @@ double PairAt::end_of_contact(const collide::Hit& hit, double t1) {
     double outside = t;
     while (outside - inside > 1e-6) {
       const double middle = 0.5 * (inside + outside);
+      if (!(inside < middle && middle < outside)) break;
       (overlap(middle) ? inside : outside) = middle;
     }
     return outside;

@@ -94,6 +94,10 @@ WatchedPairs watched_pairs(const Scene& scene, const std::vector<Pair>& before) 
   for (const Pair& pair : before) left_out[pair.name] = pair.left_out;
   WatchedPairs out;
   const auto& bodies = scene.bodies();
+  for (const SceneBody& body : bodies)
+    if (!body.collision)
+      out.exclusions.push_back(body.body.name +
+                               " – everything: it is only drawn (collide = false)");
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
       if (!watched(scene, bodies[i], bodies[j], out.exclusions)) continue;

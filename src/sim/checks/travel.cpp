@@ -56,14 +56,15 @@ bool search_maximum(JointTrack& track, double ta, double tb, double accuracy, Ex
   const double tm = 0.5 * (ta + tb);
   const auto value = track.value(tm);
   const auto travel = track.travel(ta, tb);
+  const bool smallest = tb - ta <= shortest_interval || !(ta < tm && tm < tb);
   if (!value) return false;
   if (*value > best.value) best = {tm, *value};
   if (!travel) {
-    if (tb - ta <= shortest_interval) return false;
+    if (smallest) return false;
     return search_maximum(track, ta, tm, accuracy, best) &&
            search_maximum(track, tm, tb, accuracy, best);
   }
-  if (*value + *travel <= best.value + accuracy || tb - ta <= shortest_interval) return true;
+  if (*value + *travel <= best.value + accuracy || smallest) return true;
   return search_maximum(track, ta, tm, accuracy, best) &&
          search_maximum(track, tm, tb, accuracy, best);
 }
@@ -74,7 +75,7 @@ std::optional<double> first_above(JointTrack& track, double ta, double tb, doubl
   const auto value = track.value(tm);
   const auto travel = track.travel(ta, tb);
   if (value && travel && *value + *travel <= limit) return std::nullopt;
-  if (tb - ta <= shortest_interval)
+  if (tb - ta <= shortest_interval || !(ta < tm && tm < tb))
     return value && *value > limit ? std::optional(ta) : std::nullopt;
   if (const auto left = first_above(track, ta, tm, limit)) return left;
   return first_above(track, tm, tb, limit);
@@ -199,6 +200,7 @@ class TravelCheck final : public Check {
   static double last_above(JointTrack& track, double ta, double tb, double limit) {
     while (tb - ta > 1e-7) {
       const double tm = 0.5 * (ta + tb);
+      if (!(ta < tm && tm < tb)) break;
       const auto value = track.value(tm);
       (value && *value > limit ? ta : tb) = tm;
     }
