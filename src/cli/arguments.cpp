@@ -31,6 +31,12 @@ void add_program(CLI::App* app, ProgramArguments& a, std::vector<std::string>& s
   app->add_option("--set", set, "set a parameter: '#100=5' or '#<name>=2' (repeatable)")
       ->type_name("ASSIGNMENT");
   app->add_option("--sub-path", a.sub_path, "folder of called subs (repeatable)")->type_name("DIR");
+  app->add_option("--dialect", a.dialect,
+                  "whose control the program is for (default: the machine's)")
+      ->check(CLI::IsMember({"linuxcnc", "fanuc", "haas"}).description(""))
+      ->type_name("linuxcnc|fanuc|haas");
+  app->add_flag("--lathe", a.lathe,
+                "Fanuc and Haas: a turning centre (default: when the machine has no Y)");
   app->add_flag("--block-delete", a.block_delete, "skip blocks that begin with /");
   app->add_flag("--optional-stop", a.optional_stop, "M1 stops");
   app->add_option("--max-blocks", a.max_blocks, "blocks executed before the run ends as unknown")

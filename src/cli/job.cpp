@@ -143,6 +143,12 @@ interp::Options interpreter_options(const Job& job, const ProgramArguments& argu
     options.axes = job.machine->kinematics().axes();
     if (const auto tip = job.machine->kinematics().forward(job.start, {})) options.start = *tip;
   }
+  const std::string& dialect = !arguments.dialect.empty() ? arguments.dialect
+                               : job.machine              ? job.machine->dialect()
+                                                          : arguments.dialect;
+  if (dialect == "fanuc") options.dialect = interp::Dialect::fanuc;
+  if (dialect == "haas") options.dialect = interp::Dialect::haas;
+  options.lathe = arguments.lathe || (job.machine && !options.axes.has(Axis::y));
   options.block_delete = arguments.block_delete;
   options.optional_stop = arguments.optional_stop;
   options.set = arguments.set;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "interp/codes/codes.h"
+#include "interp/dialect.h"
 
 namespace aircut::interp {
 namespace {
@@ -148,7 +149,7 @@ constexpr CodeRule rows[] = {
 
 }  // namespace
 
-std::span<const CodeRule> all_rules() { return rows; }
+std::span<const CodeRule> linuxcnc_rows() { return rows; }
 
 std::string name_of(const CodeRule& rule) {
   if (rule.letter == 'M') return "M" + std::to_string(rule.code);
@@ -207,23 +208,34 @@ const char* name_of(ModalGroup group) {
   return "";
 }
 
-CodeTable::CodeTable() {
-  for (const CodeRule& rule : rows) {
-    if (rule.letter == 'G') g_[static_cast<std::size_t>(rule.code)] = &rule;
-    if (rule.letter == 'M') m_[static_cast<std::size_t>(rule.code)] = &rule;
-  }
-  for (std::size_t code = 101; code < m_.size(); ++code) m_[code] = m_[100];
+CodeTable::CodeTable(Dialect dialect, bool lathe) : dialect_(&traits_of(dialect)) {
+  for (const auto layer : layers_of(dialect, lathe))
+    for (const CodeRule& rule : layer) {
+      if (rule.letter == 'G') g_[static_cast<std::size_t>(rule.code)] = &rule;
+      if (rule.letter == 'M') m_[static_cast<std::size_t>(rule.code)] = &rule;
+    }
+  if (m_[100] && m_[100]->group == ModalGroup::user)
+    for (std::size_t code = 101; code < 200; ++code) m_[code] = m_[100];
 }
 
 const CodeRule* CodeTable::find(char letter, double number) const {
   const double scaled = letter == 'G' ? number * 10 : number;
-  if (!(scaled > -1 && scaled < 1000)) return nullptr;
-  const auto nearest = static_cast<double>(static_cast<int>(scaled + 0.5));
+  const int count = letter == 'G' ? max_g : max_m;
+  if (!(scaled > -1 && scaled < count)) return nullptr;
+  const int nearest = static_cast<int>(scaled + 0.5);
   const double band = letter == 'G' ? 1e-3 : 1e-4;
-  if (std::fabs(scaled - nearest) > band) return nullptr;
+  if (nearest >= count || std::fabs(scaled - nearest) > band) return nullptr;
   const auto code = static_cast<std::size_t>(nearest);
-  if (letter == 'G') return nearest < 1000 ? g_[code] : nullptr;
-  return nearest < 200 ? m_[code] : nullptr;
+  return letter == 'G' ? g_[code] : m_[code];
+}
+
+std::vector<const CodeRule*> CodeTable::rules() const {
+  std::vector<const CodeRule*> rules;
+  for (const CodeRule* rule : g_)
+    if (rule) rules.push_back(rule);
+  for (const CodeRule* rule : m_)
+    if (rule && (rules.empty() || rules.back() != rule)) rules.push_back(rule);
+  return rules;
 }
 
 }  // namespace aircut::interp

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "interp/interp.h"
+
 namespace aircut::interp {
 
 class BlockRun;
@@ -91,21 +93,28 @@ struct CodeRule {
 /// `G5.1`, `M3`.
 std::string name_of(const CodeRule& rule);
 
-/// All rows, in no particular order.
-std::span<const CodeRule> all_rules();
+struct DialectTraits;
 
 class CodeTable {
  public:
-  CodeTable();
+  explicit CodeTable(Dialect dialect = Dialect::linuxcnc, bool lathe = false);
+  /// What is special about the dialect that the rows are of.
+  const DialectTraits& dialect() const { return *dialect_; }
   /// The row of a G or M word, or null when there is no such code.
   const CodeRule* find(char letter, double number) const;
   const CodeRule* find_g(int code) const {
-    return code >= 0 && code < 1000 ? g_[static_cast<std::size_t>(code)] : nullptr;
+    return code >= 0 && code < max_g ? g_[static_cast<std::size_t>(code)] : nullptr;
   }
+  /// The rows in force, each code once.
+  std::vector<const CodeRule*> rules() const;
 
  private:
-  std::array<const CodeRule*, 1000> g_{};
-  std::array<const CodeRule*, 200> m_{};
+  static constexpr int max_g = 3000;  ///< G numbers × 10
+  static constexpr int max_m = 1000;
+
+  const DialectTraits* dialect_;
+  std::array<const CodeRule*, max_g> g_{};
+  std::array<const CodeRule*, max_m> m_{};
 };
 
 }  // namespace aircut::interp

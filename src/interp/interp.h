@@ -1,4 +1,4 @@
-// interp: from program text to canonical commands (RS274/NGC, LinuxCNC dialect).
+// interp: from program text to canonical commands (RS274/NGC: LinuxCNC, Fanuc, Haas).
 //
 //   SourceText ─ lexer/parser ─► Block ─ code table, in phase order ─► canon::Command
 //
@@ -27,14 +27,19 @@ ParameterFile read_var(const SourceText& text, Diagnostics& out);
 /// The text of a var file with the parameters that a control keeps.
 std::string write_var(const ParameterFile& parameters);
 
+/// Whose control the program is written for.
+enum class Dialect : unsigned char { linuxcnc, fanuc, haas };
+
 struct Limits {
   std::uint64_t max_blocks = 50'000'000;
   std::uint64_t max_idle_blocks = 10'000'000;  ///< blocks without motion or dwell
   std::uint64_t max_repeat = 100'000'000;      ///< passes of one loop statement
-  int max_depth = 9;                           ///< nested calls, as the reference
+  int max_depth = 0;                           ///< nested calls; 0: as many as the control takes
 };
 
 struct Options {
+  Dialect dialect = Dialect::linuxcnc;
+  bool lathe = false;  ///< Fanuc, Haas: G-code system A of turning centres, else machining centres
   canon::Unit machine_unit = canon::Unit::millimetre;  ///< of tool table, var file, #5xxx
   canon::Unit start_unit = canon::Unit::millimetre;    ///< G20/G21 at the start
   AxisSet axes;      ///< axes that the machine has; a word of another one is an error

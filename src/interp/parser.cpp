@@ -1,23 +1,19 @@
 // Words, comments and settings of a line.
 #include "interp/parser.h"
 
+#include "interp/dialect.h"
 #include "interp/line_parser.h"
 
 namespace aircut::interp {
-namespace {
-
-constexpr std::uint32_t max_line_length = 252;  // of the reference, without the line end
-
-}  // namespace
-
 std::optional<Fault> LineParser::parse() {
   if (in_.at_end()) return std::nullopt;
   out_.empty = false;
-  if (in_.line().size() > max_line_length) {
+  const std::uint32_t max_line_length = table_.dialect().max_line;
+  if (max_line_length != 0 && in_.line().size() > max_line_length) {
     fail("line_too_long", max_line_length,
          static_cast<std::uint32_t>(in_.line().size()) - max_line_length,
-         "the line has " + std::to_string(in_.line().size()) +
-             " characters; the control takes 252, split it");
+         "the line has " + std::to_string(in_.line().size()) + " characters; the control takes " +
+             std::to_string(max_line_length) + ", split it");
     return fault_;
   }
   if (in_.accept('/')) out_.block_delete = true;
@@ -96,9 +92,10 @@ bool LineParser::word(char letter) {
 bool LineParser::add_word(Word& word) {
   if (word.letter == 'G' || word.letter == 'M') {
     out_.has_rules = true;
-    if (word.letter == 'M' && ++m_words_ > 4)
+    if (word.letter == 'M' && ++m_words_ > table_.dialect().max_m_words)
       return fail("too_many_m", word.place.begin, word.place.length,
-                  "more than 4 M words on one line; put the others on a line of their own");
+                  "more than " + std::to_string(table_.dialect().max_m_words) +
+                      " M words on one line; put the others on a line of their own");
     if (word.letter == 'G' && ++g_groups_ > 20)
       return fail("modal_clash", word.place.begin, word.place.length,
                   "more G words on this line than there are modal groups");

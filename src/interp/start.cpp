@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
+#include "interp/dialect.h"
 #include "interp/impl.h"
 #include "interp/lexer.h"
 
@@ -24,6 +25,7 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
     : options_(std::move(options)),
       reader_(std::move(reader)),
       diagnostics_(diagnostics),
+      table_(options_.dialect, options_.lathe),
       parameters_(*this, options_.ini),
       tools_(tools),
       session_{options_,
@@ -33,6 +35,7 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
                {},
                {},
                options_.machine_unit == canon::Unit::inch ? 25.4 : 1.0} {
+  if (options_.limits.max_depth == 0) options_.limits.max_depth = table_.dialect().max_depth;
   options_.spindles = std::clamp(options_.spindles, 1, max_spindles);
   frames_.emplace_back();
   frames_.back().file = &file_for(program);
@@ -41,6 +44,7 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
 
 void Interpreter::Impl::start(const ParameterFile& file) {
   state_.unit = options_.start_unit;
+  if (table_.dialect().motion_at_start) state_.motion = 0;
   state_.tool = options_.tool_in_spindle;
   load_parameters(file);
   apply_settings();

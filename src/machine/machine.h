@@ -235,6 +235,8 @@ struct LinkPoses {
 class Machine {
  public:
   const std::string& name() const { return name_; }
+  /// Of the programs that it runs: "linuxcnc", "fanuc" or "haas".
+  const std::string& dialect() const { return dialect_; }
   const std::string& folder() const { return folder_; }
   const std::vector<Link>& links() const { return links_; }
   /// All couples, parents before children.

@@ -277,9 +277,10 @@ Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& tex
   machine->name_ = top.required_text("name");
   machine->dialect_ =
       top.choice("dialect", {"linuxcnc", "fanuc", "haas", "sinumerik", "grbl"}, "linuxcnc");
-  if (machine->dialect_ != "linuxcnc")
-    top.error("dialect", "the dialect '" + machine->dialect_ +
-                             "' is not supported by this version; only 'linuxcnc' is");
+  if (machine->dialect_ == "sinumerik" || machine->dialect_ == "grbl")
+    top.error("dialect",
+              "the dialect '" + machine->dialect_ +
+                  "' is not supported by this version; 'linuxcnc', 'fanuc' and 'haas' are");
   ReadState state{*machine, read_units(top, 1.0), files};
 
   read_tree(top, state);

@@ -1,0 +1,40 @@
+// What a dialect is: traits that the reader of lines asks, and layers of code-table rows. The core
+// (blocks, phases, parameters, calls, offsets, motion) is the same for all of them.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "interp/code_table.h"
+#include "interp/interp.h"
+
+namespace aircut::interp {
+
+struct DialectTraits {
+  const char* name;        ///< as messages call the control: "LinuxCNC", "Fanuc", "Haas"
+  bool macro_b;            ///< O1234 programs, IF GOTO, WHILE DO, G65; else O-words and #<names>
+  bool active_comments;    ///< (MSG,…), (DEBUG,…) act
+  bool least_increments;   ///< a length without a decimal point counts 0.001 mm or 0.0001 in
+  bool end_required;       ///< end of file without M2, M30 or M99 is an error
+  bool motion_at_start;    ///< G0 is in force at the start, else none is
+  std::uint32_t max_line;  ///< characters of a line without its end; 0: any number
+  int max_m_words;         ///< M words on one line
+  int max_depth;           ///< nested calls
+};
+
+const DialectTraits& traits_of(Dialect dialect);
+
+/// Rows of the code table, base first: a row of a later layer replaces the row of the same code.
+std::vector<std::span<const CodeRule>> layers_of(Dialect dialect, bool lathe);
+
+/// The rows that each dialect brings (code_table.cpp, fanuc_codes.cpp, haas_codes.cpp).
+std::span<const CodeRule> linuxcnc_rows();
+std::span<const CodeRule> fanuc_rows();        ///< mills and lathes
+std::span<const CodeRule> fanuc_mill_rows();   ///< machining centres
+std::span<const CodeRule> fanuc_lathe_rows();  ///< turning centres, G-code system A
+std::span<const CodeRule> haas_rows();
+std::span<const CodeRule> haas_mill_rows();
+std::span<const CodeRule> haas_lathe_rows();
+
+}  // namespace aircut::interp
