@@ -74,13 +74,19 @@ int explain_command(const ExplainArguments& a) {
 int doctor_command() {
   std::printf("aircut %s\n", AIRCUT_VERSION);
   std::printf("threads    %u\n", std::thread::hardware_concurrency());
-  auto renderer = render::Renderer::create({64, 64});
-  std::printf("pictures   %s\n",
-              renderer ? "OSMesa works" : printable(renderer.error().message).c_str());
+  // Each is opened at run time and is enough by itself.
+  bool pictures = false;
+  const auto try_backend = [&](const char* title, render::Backend backend) {
+    const auto renderer = render::Renderer::create({64, 64, render::Supersample::once, backend});
+    pictures = pictures || renderer;
+    std::printf("%s%s\n", title, renderer ? "works" : printable(renderer.error().message).c_str());
+  };
+  try_backend("pictures   OSMesa: ", render::Backend::osmesa);
+  try_backend("           EGL: ", render::Backend::egl);
   std::printf("machines  ");
   for (const std::string& folder : package_folders()) std::printf(" %s", printable(folder).c_str());
   std::printf("\n");
-  return code(renderer ? ExitCode::pass : ExitCode::unknown);
+  return code(pictures ? ExitCode::pass : ExitCode::unknown);
 }
 
 }  // namespace aircut::cli

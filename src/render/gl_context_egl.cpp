@@ -1,12 +1,11 @@
 // EGL back end: Mesa's surfaceless platform, which needs neither a screen nor a window and draws on
 // the processor. libEGL is opened at run time, so that a machine without it still has the OSMesa
 // back end; the few declarations below are EGL 1.5's own.
-#include <dlfcn.h>
-
 #include <array>
 #include <cstdint>
 
 #include "render/gl_context.h"
+#include "render/shared_library.h"
 
 namespace aircut::render {
 namespace {
@@ -40,26 +39,20 @@ struct Egl {
   unsigned (*destroy_context)(Display, Context) = nullptr;
 };
 
-template <class F>
-bool find(void* library, const char* name, F& function) {
-  function = reinterpret_cast<F>(dlsym(library, name));
-  return function != nullptr;
-}
-
 // The library stays open: Mesa does not survive being unloaded.
 Expected<Egl> open_egl() {
-  void* library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr)
-    return unexpected(make_error("output_failed", "there is no libEGL.so.1; install libegl1"));
+  const auto library = open_library("libEGL.so.1", "install libegl1");
+  if (!library) return unexpected(library.error());
   Egl egl;
-  const bool complete = find(library, "eglGetProcAddress", egl.get_proc_address) &&
-                        find(library, "eglGetPlatformDisplay", egl.get_platform_display) &&
-                        find(library, "eglInitialize", egl.initialize) &&
-                        find(library, "eglBindAPI", egl.bind_api) &&
-                        find(library, "eglChooseConfig", egl.choose_config) &&
-                        find(library, "eglCreateContext", egl.create_context) &&
-                        find(library, "eglMakeCurrent", egl.make_current) &&
-                        find(library, "eglDestroyContext", egl.destroy_context);
+  const bool complete =
+      find_function(*library, "eglGetProcAddress", egl.get_proc_address) &&
+      find_function(*library, "eglGetPlatformDisplay", egl.get_platform_display) &&
+      find_function(*library, "eglInitialize", egl.initialize) &&
+      find_function(*library, "eglBindAPI", egl.bind_api) &&
+      find_function(*library, "eglChooseConfig", egl.choose_config) &&
+      find_function(*library, "eglCreateContext", egl.create_context) &&
+      find_function(*library, "eglMakeCurrent", egl.make_current) &&
+      find_function(*library, "eglDestroyContext", egl.destroy_context);
   if (!complete)
     return unexpected(make_error("output_failed", "libEGL.so.1 is older than EGL 1.5"));
   return egl;

@@ -39,9 +39,10 @@ class Program : public ::testing::Test {
 
   Outcome aircut(const std::string& arguments, const std::string& input = "") {
     put("stdin", input);
-    const std::string command =
-        "cd " AIRCUT_SOURCE_DIR " && timeout 120 " AIRCUT_BINARY_DIR "/bin/aircut " + arguments +
-        " <" + path("stdin") + " >" + path("stdout") + " 2>" + path("stderr");
+    const std::string command = "cd " AIRCUT_SOURCE_DIR " && " + environment_ +
+                                " timeout 120 " AIRCUT_BINARY_DIR "/bin/aircut " + arguments +
+                                " <" + path("stdin") + " >" + path("stdout") + " 2>" +
+                                path("stderr");
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(path("stdout")),
             text_of(path("stderr"))};
@@ -51,6 +52,7 @@ class Program : public ::testing::Test {
     std::ofstream(path(name), std::ios::binary) << text;
   }
   std::filesystem::path folder_;
+  std::string environment_;  ///< assignments for the program, as the shell writes them
 };
 
 }  // namespace aircut
