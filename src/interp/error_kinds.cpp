@@ -58,6 +58,9 @@ const std::vector<KindText>& error_kinds() {
       {"comp_illegal", "not allowed while radius compensation is on",
        "Planes, offsets, cycles, probing, tool changes and others must wait for G40. Example: `G41 "
        "D1` and then `G55`."},
+      {"contour_error", "a contour that a turning cycle can't cut",
+       "G70, G71, G72 and G73 need a contour of G0 to G3 moves in X and Z that does not go back on "
+       "its way. Example: `G71 Q100` with a sub o100 that goes to Z-10 and back to Z-5."},
       {"cycle_error", "a canned cycle that can't be carried out",
        "R must lie above the bottom, rotary axes can't move in it, G93 is not possible. Example: "
        "`G81 X1 R-5 Z-1`."},

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "interp/contour_reader.h"
 #include "interp/flow.h"
 #include "interp/interp.h"
 #include "interp/parser.h"
@@ -31,6 +32,16 @@ struct Loop {
   std::uint64_t frame_pass = 0;
 };
 
+/// A cycle that waits for its contour (contour_reading.cpp).
+struct ContourReading {
+  Block cycle;  ///< its block, with the values of the words
+  SourceSpan span;
+  const CodeRule* rule = nullptr;
+  ModalState before;
+  ContourReader reader;
+  bool failed = false;
+};
+
 /// The main program, or one call.
 struct Frame {
   ProgramFile* file = nullptr;
@@ -43,8 +54,9 @@ struct Frame {
   std::uint64_t repeats = 1;  ///< M98 L: passes still to do with this one
   std::vector<Loop> loops;
   std::shared_ptr<const CallFrame> calls;
-  std::optional<ModalState> saved;  ///< M70, M73
-  bool restore_at_return = false;   ///< M73
+  std::optional<ModalState> saved;          ///< M70, M73
+  bool restore_at_return = false;           ///< M73
+  std::unique_ptr<ContourReading> reading;  ///< its moves are a contour
 };
 
 class Interpreter::Impl final : public Site, private LiveValues {
@@ -123,6 +135,11 @@ class Interpreter::Impl final : public Site, private LiveValues {
   }
   std::shared_ptr<const CallFrame> current_calls();
 
+  // ---- contours of turning cycles (contour_reading.cpp)
+  void start_contour(const FlowRequest& request, const CodeRule& rule);
+  void read_contour_block(Block& block);
+  void finish_contour(std::unique_ptr<ContourReading> reading);
+
   // ---- messages (interpreter.cpp)
   SourceSpan span_of(Place place);
   void report(const Fault& fault);
@@ -156,8 +173,10 @@ class Interpreter::Impl final : public Site, private LiveValues {
   std::map<const SourceText*, std::unique_ptr<ProgramFile>> files_;
   std::vector<ProgramFile*> opened_order_;  ///< files of subs
   Block scratch_;
-  std::unique_ptr<Block> refused_;  ///< of a loop's line that could not be read
-  Block* block_ = nullptr;          ///< in execution
+  std::unique_ptr<Block> refused_;                    ///< of a loop's line that could not be read
+  int contour_frame_ = -1;                            ///< the call whose moves are a contour
+  std::unique_ptr<ContourReading> finished_reading_;  ///< messages still refer to it
+  Block* block_ = nullptr;                            ///< in execution
   SourceSpan span_;
   bool span_valid_ = false;
   bool done_ = false;
@@ -185,6 +204,8 @@ class BlockExecutor {
  public:
   explicit BlockExecutor(BlockRun& run, Block& block) : run_(run), block_(block) {}
   void execute(std::string_view line);
+  /// Only evaluates the words and makes the settings.
+  bool values() { return evaluate() && settings(); }
 
  private:
   struct Item {

@@ -244,6 +244,7 @@ bool Interpreter::Impl::plain_move(Block& block) {
 }
 
 void Interpreter::Impl::execute_words(Block& block) {
+  if (contour_frame_ >= 0) return read_contour_block(block);
   if (plain_move(block)) return;
   if (block.words.empty() && !block.comment) {  // settings alone leave the modal state as it is
     BlockRun run(session_, block, state_, *this, queue_);
@@ -301,6 +302,9 @@ void Interpreter::Impl::execute_words(Block& block) {
       break;
     case FlowRequest::Kind::return_:
       return_fanuc();
+      break;
+    case FlowRequest::Kind::contour:
+      start_contour(run.flow, *run.motion_rule);
       break;
   }
 }

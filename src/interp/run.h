@@ -30,9 +30,10 @@ struct Session {
 
 /// What a block asks of the flow of control once it has succeeded.
 struct FlowRequest {
-  enum class Kind : unsigned char { none, end, call, return_ } kind = Kind::none;
-  std::int64_t label = 0;     ///< M98 P
+  enum class Kind : unsigned char { none, end, call, return_, contour } kind = Kind::none;
+  std::int64_t label = 0;     ///< M98 P, the sub of a contour
   std::uint64_t repeats = 1;  ///< M98 L
+  AxisValues contour_start;   ///< tip from which a contour begins
 };
 
 /// M70, M71, M73: done once the block has succeeded, by the flow of control, which owns the levels.
@@ -53,6 +54,8 @@ class Site {
   virtual std::uint32_t block_number() const = 0;
 };
 
+class ContourReader;
+
 class BlockRun {
  public:
   BlockRun(Session& s, const Block& b, ModalState& next, Site& site,
@@ -65,10 +68,11 @@ class BlockRun {
   FlowRequest flow;
   StackRequest stack;
   Level level = Level::main;
-  const ModalState* saved = nullptr;      ///< by M70 on this level
-  const CodeRule* motion_rule = nullptr;  ///< explicit or modal, of this line
-  bool machine_coordinates = false;       ///< G53
-  bool feed_given = false;                ///< the line has an F word
+  const ModalState* saved = nullptr;       ///< by M70 on this level
+  const CodeRule* motion_rule = nullptr;   ///< explicit or modal, of this line
+  bool machine_coordinates = false;        ///< G53
+  bool feed_given = false;                 ///< the line has an F word
+  const ContourReader* contour = nullptr;  ///< second step of a cycle that has asked for it
 
   // ---- words
   bool has(char letter) const { return block.find(letter) != nullptr; }

@@ -197,8 +197,10 @@ void Interpreter::Impl::return_from_call() {
     parameters_.commit();
   }
   parameters_.leave();
+  auto reading = std::move(frame.reading);
   frames_.pop_back();
   span_valid_ = false;
+  if (reading) finish_contour(std::move(reading));
 }
 
 void Interpreter::Impl::call_fanuc(const FlowRequest& request) {

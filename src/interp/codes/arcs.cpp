@@ -126,6 +126,16 @@ bool words_fit(BlockRun& run, const CodeRule& rule) {
 
 }  // namespace
 
+std::optional<PlanePoint> arc_centre(BlockRun& run, const CodeRule& rule, PlanePoint start,
+                                     PlanePoint end) {
+  if (!words_fit(run, rule)) return std::nullopt;
+  const Point a{start.u, start.v}, b{end.u, end.v};
+  const auto centre =
+      run.has('R') ? centre_from_radius(run, rule, a, b) : centre_from_offsets(run, rule, a);
+  if (!centre || (!run.has('R') && !radii_agree(run, rule, a, b, *centre))) return std::nullopt;
+  return PlanePoint{centre->a, centre->b};
+}
+
 void arc(const CodeRule& rule, BlockRun& run) {
   ModalState& state = run.state;
   if (!words_fit(run, rule) || !feed_is_set(run, rule)) return;

@@ -1,6 +1,7 @@
 // The handlers of the code table, one file per subject.
 #pragma once
 
+#include "interp/contour.h"
 #include "interp/run.h"
 
 namespace aircut::interp {
@@ -21,6 +22,8 @@ void nurbs_point(const CodeRule&, BlockRun&);
 void nurbs_end(const CodeRule&, BlockRun&);
 // cycles.cpp
 void canned_cycle(const CodeRule&, BlockRun&);
+// contour_turning.cpp
+void contour_turning(const CodeRule&, BlockRun&);
 // threading.cpp
 void thread_cycle(const CodeRule&, BlockRun&);
 // modes.cpp
@@ -78,6 +81,10 @@ std::optional<int> spindle_of(BlockRun& run, int otherwise);
 std::optional<AxisValues> target_of(BlockRun& run);
 /// Moves the point (program coordinates) to where @ and ^ put it; false with an error.
 bool apply_polar(BlockRun& run, double& x, double& y);
+/// Centre of the arc that I J K or R of the line mean, in the axes of the plane and program
+/// coordinates, or nothing with an error. `rule` is that of G2 or G3.
+std::optional<PlanePoint> arc_centre(BlockRun& run, const CodeRule& rule, PlanePoint start,
+                                     PlanePoint end);
 /// True when a feed is set for the move; else the error is recorded.
 bool feed_is_set(BlockRun& run, const CodeRule& rule);
 /// Makes `next`'s settings of work system `system` the ones in force, from the parameters.

@@ -11,6 +11,7 @@
 #include <cmath>
 
 #include "interp/codes/codes.h"
+#include "interp/codes/turning.h"
 
 namespace aircut::interp {
 namespace {
@@ -25,7 +26,6 @@ class Thread {
  private:
   bool read_words();
   void pass(double depth);
-  AxisValues at(double x, double z) const;
   void rapid(double x, double z, const char* what);
   void feed(double x, double z, double pitch);
 
@@ -143,26 +143,13 @@ void Thread::pass(double depth) {
   if (state_.feed_override) run_.emit(canon::Override{canon::Override::Kind::feed, true, 0});
 }
 
-AxisValues Thread::at(double x, double z) const {
-  AxisValues program = start_;
-  program[Axis::x] = x;
-  program[Axis::z] = z;
-  AxisValues tip = to_tip(state_, program);
-  for (const Axis axis : all_axes) {
-    const bool moves =
-        axis == Axis::x || axis == Axis::z || (axis == Axis::y && state_.rotation != 0);
-    if (!moves) tip[axis] = state_.tip[axis];
-  }
-  return tip;
-}
-
 void Thread::rapid(double x, double z, const char* what) {
-  state_.tip = at(x, z);
+  state_.tip = tip_in_zx(state_, x, z);
   run_.emit(canon::Rapid{state_.tip}, std::string("G76 ") + what);
 }
 
 void Thread::feed(double x, double z, double pitch) {
-  state_.tip = at(x, z);
+  state_.tip = tip_in_zx(state_, x, z);
   canon::SyncFeed move;
   move.end = state_.tip;
   move.per_revolution = pitch;

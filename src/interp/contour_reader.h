@@ -1,0 +1,35 @@
+// Turns the blocks between which a turning cycle finds its contour (a sub, or P … Q) into a Contour
+// in the ZX plane: u = Z, v = X, program coordinates in mm.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "interp/contour.h"
+#include "interp/corner.h"
+#include "interp/run.h"
+
+namespace aircut::interp {
+
+class ContourReader {
+ public:
+  /// Reads the moves of one executed block. The run's tip follows; nothing is emitted.
+  void read(BlockRun& run);
+  /// Cuts the corners. Nothing, with what is wrong and the line, when one does not fit.
+  bool finish(std::string& problem);
+
+  /// The first piece is the way from the start point to the first point.
+  const Contour& contour() const { return contour_; }
+  /// Line of the program that a piece comes from.
+  std::uint32_t line_of(std::size_t piece) const;
+
+ private:
+  void add(BlockRun& run, const CodeRule& rule, PlanePoint start, PlanePoint end);
+
+  Contour contour_;
+  std::vector<CornerWord> corners_;  ///< at the end of each piece
+  std::vector<std::uint32_t> lines_;
+  double feed_ = 0;  ///< of the last F word, mm/min or mm/rev as programmed, 0 without
+};
+
+}  // namespace aircut::interp

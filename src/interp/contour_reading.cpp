@@ -1,0 +1,84 @@
+// A turning cycle with a contour takes two steps. When its block is executed it asks for the
+// contour: the blocks of a sub, or those from one N number to another, are run with all their
+// expressions, loops and calls, but their moves go to a ContourReader instead of to the machine.
+// Behind the last of them the state is again as before, and the cycle's handler is called a second
+// time, with the contour.
+#include "interp/codes/codes.h"
+#include "interp/impl.h"
+
+namespace aircut::interp {
+
+void Interpreter::Impl::start_contour(const FlowRequest& request, const CodeRule& rule) {
+  ProgramFile* file = frames_.back().file;
+  const std::string label = std::to_string(request.label);
+  const Place place = block_->find('Q') ? block_->find('Q')->place : Place{0, block_->length};
+  if (contour_frame_ >= 0)
+    return report("contour_error", place, "a contour can't be cut within another contour");
+  file = find_file_with_sub(label);
+  if (!file) file = open_sub_file(label, place);
+  if (!file) return;
+  const int at = file->flow->find_sub(label);
+  FlowEntry& sub = file->flow->entries[static_cast<std::size_t>(at)];
+  if (sub.problem_kind) return report(sub.problem_kind, place, sub.problem);
+  if (!sub.passed && file == frames_.front().file) sub.called_ahead = true;
+  auto reading = std::make_unique<ContourReading>();
+  reading->cycle = *block_;
+  reading->span = span();
+  reading->rule = &rule;
+  reading->before = state_;
+  const std::vector<double> no_arguments;
+  if (!enter_sub(*file, at, &no_arguments, name_of(rule) + " contour o" + label)) return;
+  frames_.back().reading = std::move(reading);
+  contour_frame_ = static_cast<int>(frames_.size()) - 1;
+  state_.motion = 0;
+  state_.tip = request.contour_start;
+}
+
+// In place of execute_words while a contour is read.
+void Interpreter::Impl::read_contour_block(Block& block) {
+  ContourReading& reading = *frames_[static_cast<std::size_t>(contour_frame_)].reading;
+  next_ = state_;
+  BlockRun run(session_, block, next_, *this, queue_);
+  if (BlockExecutor(run, block).values()) reading.reader.read(run);
+  if (!run.ok()) {
+    parameters_.roll_back();
+    reading.failed = true;
+    return report(*run.fault());
+  }
+  parameters_.commit();
+  for (const Fault& warning : run.warnings()) warn(warning);
+  state_ = next_;
+}
+
+// The frame that read the contour has been left.
+void Interpreter::Impl::finish_contour(std::unique_ptr<ContourReading> reading) {
+  contour_frame_ = -1;
+  state_ = reading->before;
+  finished_reading_ = std::move(reading);
+  ContourReading& done = *finished_reading_;
+  block_ = &done.cycle;
+  span_ = done.span;
+  span_valid_ = true;
+  if (done.failed) return remember_failure(done.cycle);
+  const std::size_t first = queue_.size();
+  next_ = state_;
+  BlockRun run(session_, done.cycle, next_, *this, queue_);
+  run.contour = &done.reader;
+  std::string problem;
+  if (!done.reader.finish(problem))
+    run.error("contour_error", *done.rule, problem);
+  else
+    done.rule->handler(*done.rule, run);
+  if (!run.ok()) {
+    queue_.resize(first);
+    parameters_.roll_back();
+    report(*run.fault());
+    return remember_failure(done.cycle);
+  }
+  parameters_.commit();
+  for (const Fault& warning : run.warnings()) warn(warning);
+  state_ = next_;
+  idle_blocks_ = 0;
+}
+
+}  // namespace aircut::interp
