@@ -39,7 +39,7 @@ void read_kinematics(config::Table& top, ReadState& state) {
   }
   for (const KinematicsRow& row : kinematics_table()) {
     if (row.type != type) continue;
-    KinematicsInput input{*table, state.unit_mm, driven};
+    KinematicsInput input{*table, state.unit_mm, driven, state.machine};
     state.machine.kinematics_ = row.make(input);
     return;
   }
@@ -284,9 +284,9 @@ Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& tex
   ReadState state{*machine, read_units(top, 1.0), files};
 
   read_tree(top, state);
+  read_spindle(top, state);
   read_kinematics(top, state);
   match_passive(top, *machine);
-  read_spindle(top, state);
   machine->bodies_ = read_bodies(top, "", bed_link, state);
   check_body_names(top, *machine);
   for (Diagnostic& problem : read_default_fixtures(top, state)) top.report(std::move(problem));

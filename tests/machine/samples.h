@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "machine/kinematics/chain.h"
 #include "machine/machine.h"
 #include "machine/random.h"
 
@@ -22,6 +23,35 @@ inline AxisValues axis_values(double x, double y, double z, double a = 0, double
   AxisValues v;
   v.value = {x, y, z, a, b, c, 0, 0, 0};
   return v;
+}
+
+/// A trunnion table A with a turntable C on it, off its axis (table/table).
+inline std::shared_ptr<const Kinematics> sample_trunnion() {
+  ChainGeometry g;
+  g.work = {{JointKind::linear, Vec3::Zero(), Vec3::UnitY(), -1, 1},
+            {JointKind::rotary, Vec3(0, 10, 40), Vec3::UnitX(), -1, 3},
+            {JointKind::rotary, Vec3(3, -4, 0), Vec3::UnitZ(), -1, 4}};
+  g.tool = {{JointKind::linear, Vec3::Zero(), Vec3::UnitZ(), 1, 2},
+            {JointKind::linear, Vec3::Zero(), Vec3::UnitX(), 1, 0}};
+  g.words = {Axis::x, Axis::y, Axis::z, Axis::a, Axis::c};
+  g.X_LM.translation() = Vec3(0, 0, 30);
+  g.gauge = Vec3(0, 0, 400);
+  std::string reason;
+  return make_chain(g, reason);
+}
+
+/// A nutating head B at 45° that turns about C, on a slide that leans: nothing is orthogonal.
+inline std::shared_ptr<const Kinematics> sample_nutating_head() {
+  ChainGeometry g;
+  g.work = {{JointKind::linear, Vec3::Zero(), Vec3::UnitX(), -1, 0}};
+  g.tool = {{JointKind::linear, Vec3::Zero(), Vec3(0, 1, 0.1).normalized(), 1, 1},
+            {JointKind::linear, Vec3::Zero(), Vec3::UnitZ(), 1, 2},
+            {JointKind::rotary, Vec3(5, 0, 600), Vec3::UnitZ(), 1, 3},
+            {JointKind::rotary, Vec3(5, 20, 550), Vec3(0, 1, 1).normalized(), 1, 4}};
+  g.words = {Axis::x, Axis::y, Axis::z, Axis::c, Axis::b};
+  g.gauge = Vec3(0, 0, 400);
+  std::string reason;
+  return make_chain(g, reason);
 }
 
 inline std::vector<Sample> samples() {
@@ -47,6 +77,10 @@ inline std::vector<Sample> samples() {
        axis_values(-300, 20, -400), axis_values(300, 20, 0)},
       {"identity ZYXCBA", make_identity({Axis::z, Axis::y, Axis::x, Axis::c, Axis::b, Axis::a}),
        axis_values(-300, -200, -400, -pi, -pi, -7), axis_values(300, 200, 0, pi, pi, 7)},
+      {"chain, trunnion", sample_trunnion(), axis_values(-200, -150, -300, -2, 0, -6),
+       axis_values(200, 150, 100, 2, 0, 6)},
+      {"chain, nutating head", sample_nutating_head(), axis_values(-200, -150, -300, 0, -3, -3),
+       axis_values(200, 150, 100, 0, 3, 3)},
       {"ox-glide crossed", make_ox_glide(crossed), axis_values(160, -150, -357.5),
        axis_values(349, 150, -200)},
       {"ox-glide extended", make_ox_glide(extended), axis_values(150, -150, -357.5),

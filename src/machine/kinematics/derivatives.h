@@ -30,6 +30,10 @@ inline Jet operator-(const Jet& a) { return {-a.v, -a.d, -a.dd}; }
 inline Jet operator*(const Jet& a, const Jet& b) {
   return {a.v * b.v, a.d * b.v + a.v * b.d, a.dd * b.v + 2 * a.d * b.d + a.v * b.dd};
 }
+inline Jet operator/(const Jet& a, const Jet& b) {
+  const double v = a.v / b.v, d = (a.d - v * b.d) / b.v;
+  return {v, d, (a.dd - 2 * d * b.d - v * b.dd) / b.v};
+}
 inline Jet chain(const Jet& a, double f, double df, double ddf) {
   return {f, df * a.d, ddf * a.d * a.d + df * a.dd};
 }
@@ -78,6 +82,10 @@ inline Slope operator-(const Slope& a) {
 }
 inline Slope operator*(const Slope& a, const Slope& b) {
   return per_input(a.v * b.v, [&](std::size_t i) { return a.d[i] * b.v + a.v * b.d[i]; });
+}
+inline Slope operator/(const Slope& a, const Slope& b) {
+  const Interval v = a.v / b.v;
+  return per_input(v, [&](std::size_t i) { return (a.d[i] - v * b.d[i]) / b.v; });
 }
 inline Slope chain(const Slope& a, const Interval& f, const Interval& df) {
   return per_input(f, [&](std::size_t i) { return df * a.d[i]; });

@@ -6,9 +6,10 @@
 namespace aircut::machine {
 
 std::span<const KinematicsRow> kinematics_table() {
-  static constexpr std::array<KinematicsRow, 5> rows = {{
+  static constexpr std::array<KinematicsRow, 6> rows = {{
       // type              reader                 follows rotary joints
       {"identity", read_identity, false},
+      {"chain", read_chain, true},
       {"ox-glide", read_ox_glide, true},
       {"robot-horizontal", read_robot_horizontal, true},
       {"robot-vertical", read_robot_vertical, true},

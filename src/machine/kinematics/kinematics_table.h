@@ -14,6 +14,7 @@ struct KinematicsInput {
   config::Table& table;
   double unit_mm;                 ///< length unit of the file
   std::span<const Joint> driven;  ///< driven joints in log order; limits and parents may be unset
+  const Machine& machine;         ///< its links, couples, work and spindle are read already
 };
 
 struct KinematicsRow {
@@ -28,6 +29,7 @@ struct KinematicsRow {
 std::span<const KinematicsRow> kinematics_table();
 
 // One per file of this folder.
+std::shared_ptr<const Kinematics> read_chain(KinematicsInput& input);
 std::shared_ptr<const Kinematics> read_identity(KinematicsInput& input);
 std::shared_ptr<const Kinematics> read_ox_glide(KinematicsInput& input);
 std::shared_ptr<const Kinematics> read_robot_horizontal(KinematicsInput& input);

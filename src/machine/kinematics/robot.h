@@ -1,15 +1,8 @@
 // What the three robots have in common. A model gives its closed-form inverse once, for any number
 // type, and its forward solution; from these come joints, rates and travel bounds.
 //
-// Travel: over a box of tip poses joint j moves along a path by at most
-//
-//   Σ_i  max over the box |∂q_j / ∂p_i| · (way of p_i)
-//
-// The maxima come from evaluating the inverse with intervals (derivatives.h), which is a proof that
-// the whole box can be reached, too: outside of the reach or at a singular pose a root, an arc
-// cosine or an angle has no bound. A box without a bound is halved, up to `splits` times, because
-// intervals overestimate large boxes. A path without a singular pose stays in its branch, so the
-// bound for the branch of `near` holds; the wrist's two sides have the same slopes.
+// Travel bounds are those of slope_bound.h. A path without a singular pose stays in its branch, so
+// the bound for the branch of `near` holds; the wrist's two sides have the same slopes.
 //
 // The shoulder's and the elbow's side are kept from `near`: no target makes the arm jump into
 // another configuration. Angles are given in the turn that is nearest to `near`.
@@ -22,14 +15,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "machine/kinematics/derivatives.h"
 #include "machine/kinematics/kinematics_table.h"
+#include "machine/kinematics/slope_bound.h"
 
 namespace aircut::machine {
 
-/// Six pose words X Y Z A B C (C is zero on five-axis machines), mm and rad.
 template <class T>
-using RobotPose = std::array<T, 6>;
+using RobotPose = PoseWords<T>;
 template <class T>
 using RobotJoints = std::array<T, 6>;
 
@@ -137,7 +129,13 @@ class RobotKinematics final : public Kinematics {
     const RobotBranch one = tip.near.size() > 0 ? model_.branch_of(tip.near) : RobotBranch{};
     const std::span<const RobotBranch> branches =
         tip.near.size() > 0 ? std::span<const RobotBranch>(&one, 1) : all;
-    return add_bound(box, way, tip.tool_offset[Axis::z], branches, splits, travel);
+    const double length = tip.tool_offset[Axis::z];
+    return std::all_of(branches.begin(), branches.end(), [&](const RobotBranch& branch) {
+      return raise_travel(box, way, splits, travel.first(Model::joints),
+                          [&](const RobotPose<Slope>& pose) {
+                            return model_.template solve<Slope>(pose, length, branch);
+                          });
+    });
   }
 
  private:
@@ -160,55 +158,6 @@ class RobotKinematics final : public Kinematics {
         return std::string("a tool offset in ") + letter(axis) +
                " is not possible on this machine: tools are along the spindle (Z)";
     return std::nullopt;
-  }
-
-  // Raises `travel` to a bound over the box; false when there is none.
-  bool add_bound(const RobotPose<Interval>& box, const RobotPose<double>& way, double length,
-                 std::span<const RobotBranch> branches, int splits_left,
-                 std::span<double> travel) const {
-    if (slopes(box, way, length, branches, travel)) return true;
-    if (splits_left == 0) return false;
-    // A radian moves the wrist by about as much as a metre does.
-    std::size_t widest = 0;
-    double width = 0;
-    for (std::size_t i = 0; i < box.size(); ++i) {
-      const double w = (box[i].high - box[i].low) * (i < 3 ? 1 : 1000);
-      if (w > width) {
-        width = w;
-        widest = i;
-      }
-    }
-    if (width == 0) return false;
-    RobotPose<Interval> half = box;
-    half[widest].high = box[widest].middle();
-    if (!add_bound(half, way, length, branches, splits_left - 1, travel)) return false;
-    half[widest] = {box[widest].middle(), box[widest].high};
-    return add_bound(half, way, length, branches, splits_left - 1, travel);
-  }
-
-  bool slopes(const RobotPose<Interval>& box, const RobotPose<double>& way, double length,
-              std::span<const RobotBranch> branches, std::span<double> travel) const {
-    RobotPose<Slope> pose;
-    for (std::size_t i = 0; i < pose.size(); ++i) {
-      pose[i] = Slope(box[i]);
-      pose[i].d[i] = Interval(1);
-    }
-    std::array<double, 6> most{};
-    for (const RobotBranch& branch : branches) {
-      const RobotJoints<Slope> q = model_.template solve<Slope>(pose, length, branch);
-      for (std::size_t j = 0; j < static_cast<std::size_t>(Model::joints); ++j) {
-        if (!q[j].v.finite()) return false;
-        Interval sum(0);
-        for (std::size_t i = 0; i < way.size(); ++i) {
-          if (!q[j].d[i].finite()) return false;
-          sum = sum + Interval(q[j].d[i].magnitude()) * Interval(way[i]);
-        }
-        most[j] = std::max(most[j], sum.high);
-      }
-    }
-    for (std::size_t j = 0; j < static_cast<std::size_t>(Model::joints); ++j)
-      travel[j] = std::max(travel[j], most[j]);
-    return true;
   }
 
   Model model_;

@@ -1,0 +1,2 @@
+// The same casting as on mill3.
+include <../../mill3/scad/base.scad>

@@ -1,0 +1,430 @@
+// A point fixed to the tool at rest, carried to M by the couples in turn:
+//
+//   p_M = X_LM⁻¹ · E_wm⁻¹ ⋯ E_w1⁻¹ · E_t1 ⋯ E_tn · p        E: Trans(sense q u) or a turn by sense
+//   q
+//
+// With the rotary joints known this is affine in the linear ones, p_M = p_0 + Σ c_i q_i: p_0 is the
+// point with the linear joints at zero, c_i the direction of couple i turned by the couples behind
+// it. The three q_i follow by Cramer's rule. The rotary joints are the program's words. Everything
+// is written once for doubles, for Jet (rates) and for Slope (travel bounds), see derivatives.h.
+//
+// The tip at rest is gauge − X_LM.R · tool offset: the tool is fixed to the spindle, whose axes are
+// those of M with all joints at zero.
+#include "machine/kinematics/chain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "machine/kinematics/kinematics_table.h"
+#include "machine/kinematics/slope_bound.h"
+
+namespace aircut::machine {
+
+namespace {
+
+template <class T>
+using Vector = std::array<T, 3>;
+
+template <class T>
+Vector<T> vector_of(const Vec3& v) {
+  return {T(v.x()), T(v.y()), T(v.z())};
+}
+
+template <class T>
+T dot(const Vec3& a, const Vector<T>& b) {
+  T sum(0);
+  for (int i = 0; i < 3; ++i)
+    if (a[i] != 0) sum = sum + T(a[i]) * b[static_cast<std::size_t>(i)];
+  return sum;
+}
+
+template <class T>
+T dot(const Vector<T>& a, const Vector<T>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class T>
+Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// A turn about a constant unit vector (Rodrigues), by its matrix' entries.
+template <class T>
+struct Turn {
+  std::array<Vector<T>, 3> rows;
+  Turn(const Vec3& u, const T& angle) {
+    using std::cos;
+    using std::sin;
+    const T c = cos(angle), s = sin(angle), v = T(1) - c;
+    const Mat3 K = skew(u);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        T entry = u[i] * u[j] == 0 ? T(0) : T(u[i] * u[j]) * v;
+        if (i == j) entry = entry + c;
+        if (K(i, j) != 0) entry = entry + T(K(i, j)) * s;
+        rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = entry;
+      }
+  }
+  Vector<T> operator()(const Vector<T>& p) const {
+    return {dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)};
+  }
+  static Mat3 skew(const Vec3& u) {
+    Mat3 K;
+    K << 0, -u.z(), u.y(), u.z(), 0, -u.x(), -u.y(), u.x(), 0;
+    return K;
+  }
+};
+
+/// What the rotary joints leave to the linear ones: p_M = p + Σ c[i] · q[linear i].
+template <class T>
+struct Affine {
+  Vector<T> p;
+  std::array<Vector<T>, 3> c;
+};
+
+// Smallest |det c| of a position that counts as solvable; the columns are unit vectors.
+constexpr double least_determinant = 1e-6;
+
+class Chain final : public Kinematics {
+ public:
+  explicit Chain(const ChainGeometry& g) : g_(g) {
+    for (std::size_t j = 0; j < g.words.size(); ++j) {
+      axes_.add(g.words[j]);
+      (is_rotary(g.words[j]) ? rotary_ : linear_).push_back(static_cast<int>(j));
+    }
+    // In the order in which a point goes from the tool to the work.
+    for (auto couple = g.tool.rbegin(); couple != g.tool.rend(); ++couple) way_.push_back(*couple);
+    for (ChainCouple couple : g.work) {
+      couple.sense = -couple.sense;
+      way_.push_back(couple);
+    }
+  }
+
+  std::string_view type() const override { return "chain"; }
+  AxisSet axes() const override { return axes_; }
+  int joint_count() const override { return static_cast<int>(g_.words.size()); }
+
+  tl::expected<JointVector, ReachError> inverse(const Target& target,
+                                                const JointVector&) const override {
+    if (const auto error = wrong_offset(target.tool_offset)) return unexpected(ReachError{*error});
+    JointVector joints(joint_count());
+    if (std::abs(determinant(affine<double>(words(target.tip), target.tool_offset).c)) <
+        least_determinant)
+      return unexpected(ReachError{"the linear axes lie in one plane at these angles"});
+    const auto q = solve<double>(words(target.tip), target.tool_offset);
+    for (Eigen::Index j = 0; j < joints.size(); ++j) {
+      joints[j] = q[static_cast<std::size_t>(j)];
+      if (!std::isfinite(joints[j])) return unexpected(ReachError{"the pose is no number"});
+    }
+    return joints;
+  }
+
+  tl::expected<AxisValues, ReachError> forward(const JointVector& joints,
+                                               const AxisValues& tool_offset) const override {
+    if (const auto error = wrong_offset(tool_offset)) return unexpected(ReachError{*error});
+    PoseWords<double> pose{};
+    AxisValues tip;
+    for (const int j : rotary_) {
+      tip[word(j)] = joints[j];
+      pose[index(word(j))] = joints[j];
+    }
+    const Affine<double> a = affine<double>(pose, tool_offset);
+    for (std::size_t i = 0; i < 3; ++i) {
+      double sum = a.p[i];
+      for (std::size_t l = 0; l < 3; ++l) sum += a.c[l][i] * joints[linear_[l]];
+      tip[all_axes[i]] = sum;
+    }
+    return tip;
+  }
+
+  std::optional<Vec3> tool_axis(const AxisValues& tip) const override {
+    return carried(Vec3::UnitZ(), words(tip));
+  }
+
+  bool rates(const Target& target, const JointVector&, const AxisValues& d_tip,
+             const AxisValues& dd_tip, JointVector& dq, JointVector& ddq) const override {
+    if (wrong_offset(target.tool_offset)) return false;
+    PoseWords<Jet> pose;
+    for (std::size_t i = 0; i < pose.size(); ++i)
+      pose[i] = {target.tip[all_axes[i]], d_tip[all_axes[i]], dd_tip[all_axes[i]]};
+    const auto q = solve<Jet>(pose, target.tool_offset);
+    dq.resize(joint_count());
+    ddq.resize(joint_count());
+    for (Eigen::Index j = 0; j < dq.size(); ++j) {
+      dq[j] = q[static_cast<std::size_t>(j)].d;
+      ddq[j] = q[static_cast<std::size_t>(j)].dd;
+    }
+    return true;
+  }
+
+  bool travel_bound(const TipInterval& tip, std::span<double> travel) const override {
+    if (wrong_offset(tip.tool_offset)) return false;
+    PoseWords<Interval> box;
+    PoseWords<double> way{};
+    bool turns = false;
+    for (std::size_t i = 0; i < box.size(); ++i) {
+      box[i] = {tip.low[all_axes[i]], tip.high[all_axes[i]]};
+      way[i] = tip.travel[all_axes[i]];
+      if (!box[i].finite()) return false;
+      if (i >= 3 && (way[i] != 0 || box[i].low != box[i].high)) turns = true;
+    }
+    std::fill_n(travel.begin(), joint_count(), 0.0);
+    if (!turns) return straight_bound(tip.low, way, travel);
+    return raise_travel(
+        box, way, splits, travel.first(static_cast<std::size_t>(joint_count())),
+        [&](const PoseWords<Slope>& pose) { return solve<Slope>(pose, tip.tool_offset); });
+  }
+
+  std::vector<JointVector> positions(const Vec3& tip, const Vec3& axis,
+                                     const AxisValues& tool_offset, const JointVector& near) const;
+
+ private:
+  static constexpr int splits = 9;
+
+  Axis word(int joint) const { return g_.words[static_cast<std::size_t>(joint)]; }
+
+  static PoseWords<double> words(const AxisValues& tip) {
+    PoseWords<double> pose;
+    for (std::size_t i = 0; i < pose.size(); ++i) pose[i] = tip[all_axes[i]];
+    return pose;
+  }
+
+  static std::optional<std::string> wrong_offset(const AxisValues& offset) {
+    for (const Axis axis : all_axes)
+      if (index(axis) >= 3 && offset[axis] != 0)
+        return std::string("a tool offset in ") + letter(axis) +
+               " is not possible on this machine: tools have lengths along X, Y and Z";
+    return std::nullopt;
+  }
+
+  // A direction fixed to M with all joints at zero and to the tool, seen from M.
+  Vec3 carried(const Vec3& v, const PoseWords<double>& pose) const {
+    Vec3 d = g_.X_LM.linear() * v;
+    for (const ChainCouple& couple : way_)
+      if (couple.kind == JointKind::rotary)
+        d = Eigen::AngleAxisd(couple.sense * pose[index(word(couple.driven))], couple.direction) *
+            d;
+    return g_.X_LM.linear().transpose() * d;
+  }
+
+  template <class T>
+  Affine<T> affine(const PoseWords<T>& pose, const AxisValues& offset) const {
+    const Vec3 tool(offset[Axis::x], offset[Axis::y], offset[Axis::z]);
+    Vector<T> p = vector_of<T>(g_.gauge - g_.X_LM.linear() * tool);
+    std::array<Vector<T>, 3> c{};
+    std::array<bool, 3> seen{};
+    for (const ChainCouple& couple : way_) {
+      if (couple.kind == JointKind::linear) {
+        const std::size_t l = place_of(couple.driven);
+        c[l] = vector_of<T>(couple.sense * couple.direction);
+        seen[l] = true;
+        continue;
+      }
+      const Turn<T> turn(couple.direction, T(couple.sense) * pose[index(word(couple.driven))]);
+      for (std::size_t i = 0; i < 3; ++i) p[i] = p[i] - T(couple.origin[static_cast<int>(i)]);
+      p = turn(p);
+      for (std::size_t i = 0; i < 3; ++i) p[i] = p[i] + T(couple.origin[static_cast<int>(i)]);
+      for (std::size_t l = 0; l < 3; ++l)
+        if (seen[l]) c[l] = turn(c[l]);
+    }
+    const Mat3& R = g_.X_LM.linear();
+    const Vec3& o = g_.X_LM.translation();
+    for (std::size_t i = 0; i < 3; ++i) p[i] = p[i] - T(o[static_cast<int>(i)]);
+    Affine<T> out;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 row = R.col(static_cast<int>(i));
+      out.p[i] = dot(row, p);
+      for (std::size_t l = 0; l < 3; ++l) out.c[l][i] = dot(row, c[l]);
+    }
+    return out;
+  }
+
+  template <class T>
+  static T determinant(const std::array<Vector<T>, 3>& c) {
+    return dot(c[0], cross(c[1], c[2]));
+  }
+
+  template <class T>
+  PoseWords<T> solve(const PoseWords<T>& pose, const AxisValues& offset) const {
+    const Affine<T> a = affine<T>(pose, offset);
+    const Vector<T> r = {pose[0] - a.p[0], pose[1] - a.p[1], pose[2] - a.p[2]};
+    const T d = determinant(a.c);
+    PoseWords<T> q{};
+    for (std::size_t l = 0; l < 3; ++l)
+      q[static_cast<std::size_t>(linear_[l])] =
+          dot(r, cross(a.c[(l + 1) % 3], a.c[(l + 2) % 3])) / d;
+    for (const int j : rotary_) q[static_cast<std::size_t>(j)] = pose[index(word(j))];
+    return q;
+  }
+
+  // The rotary axes stand still: the linear joints go with the tip by a constant matrix.
+  bool straight_bound(const AxisValues& at, const PoseWords<double>& way,
+                      std::span<double> travel) const {
+    const auto c = affine<double>(words(at), {}).c;
+    const double d = std::abs(determinant(c));
+    if (!(d >= least_determinant)) return false;
+    constexpr double slack = 1 + 1e-12;  // rounding of some dozen operations
+    for (std::size_t l = 0; l < 3; ++l) {
+      const Vector<double> row = cross(c[(l + 1) % 3], c[(l + 2) % 3]);
+      double sum = 0;
+      for (std::size_t i = 0; i < 3; ++i) sum += (std::abs(row[i]) + 1e-15) * way[i];
+      travel[static_cast<std::size_t>(linear_[l])] = sum / d * slack;
+    }
+    return true;
+  }
+
+  // Place of a linear joint among the linear ones.
+  std::size_t place_of(int joint) const {
+    return static_cast<std::size_t>(std::find(linear_.begin(), linear_.end(), joint) -
+                                    linear_.begin());
+  }
+
+  ChainGeometry g_;
+  AxisSet axes_;
+  std::vector<int> linear_, rotary_;
+  std::vector<ChainCouple> way_;
+};
+
+// Angle about u that brings a to b (their parts across u); nothing when one of them is along u.
+std::optional<double> angle_about(const Vec3& u, const Vec3& a, const Vec3& b) {
+  const Vec3 p = a - u.dot(a) * u, q = b - u.dot(b) * u;
+  if (p.norm() < 1e-9 || q.norm() < 1e-9) return std::nullopt;
+  return std::atan2(u.dot(p.cross(q)), p.dot(q));
+}
+
+// R(u1, t1) · R(u2, t2) · p = q (Paden and Kahan's second problem, kinematics.md d.5): the vector z
+// between the two turns has known parts along u1, u2, and up to a sign along u1 × u2.
+std::vector<std::pair<std::optional<double>, std::optional<double>>> two_turns(const Vec3& u1,
+                                                                               const Vec3& u2,
+                                                                               const Vec3& p,
+                                                                               const Vec3& q) {
+  const double g = u1.dot(u2);
+  const Vec3 across = u1.cross(u2);
+  if (across.norm() < 1e-9) return {};
+  const double alpha = (g * u2.dot(p) - u1.dot(q)) / (g * g - 1);
+  const double beta = (g * u1.dot(q) - u2.dot(p)) / (g * g - 1);
+  double gamma2 = (1 - alpha * alpha - beta * beta - 2 * alpha * beta * g) / across.squaredNorm();
+  if (gamma2 < -1e-12) return {};
+  const double gamma = std::sqrt(std::max(gamma2, 0.0));
+  std::vector<std::pair<std::optional<double>, std::optional<double>>> out;
+  for (const double sign : {1.0, -1.0}) {
+    const Vec3 z = alpha * u1 + beta * u2 + sign * gamma * across;
+    out.emplace_back(angle_about(u1, z, q), angle_about(u2, p, z));
+    if (gamma < 1e-9) break;
+  }
+  return out;
+}
+
+std::vector<JointVector> Chain::positions(const Vec3& tip, const Vec3& axis,
+                                          const AxisValues& tool_offset,
+                                          const JointVector& near) const {
+  std::vector<const ChainCouple*> turns;  // in the order in which a point goes to the work
+  for (const ChainCouple& couple : way_)
+    if (couple.kind == JointKind::rotary) turns.push_back(&couple);
+  if (turns.size() != 2) return {};
+  const Mat3& R = g_.X_LM.linear();
+  std::vector<JointVector> out;
+  for (const auto& [outer, inner] :
+       two_turns(turns[1]->direction, turns[0]->direction, R * Vec3::UnitZ(), R * axis)) {
+    Target target;
+    target.tool_offset = tool_offset;
+    for (int i = 0; i < 3; ++i) target.tip[all_axes[static_cast<std::size_t>(i)]] = tip[i];
+    const auto set = [&](const ChainCouple& couple, const std::optional<double>& angle) {
+      target.tip[word(couple.driven)] =
+          angle ? *angle / couple.sense : near[couple.driven];  // sense is ±1
+    };
+    set(*turns[1], outer);
+    set(*turns[0], inner);
+    if (const auto joints = inverse(target, near)) out.push_back(*joints);
+  }
+  return out;
+}
+
+std::string words_of(const std::vector<Axis>& words) {
+  std::string text;
+  for (const Axis axis : words) text += letter(axis);
+  return text;
+}
+
+}  // namespace
+
+std::shared_ptr<const Kinematics> make_chain(const ChainGeometry& g, std::string& reason) {
+  const auto count = [&](Axis axis) { return std::count(g.words.begin(), g.words.end(), axis); };
+  const std::size_t couples = g.work.size() + g.tool.size();
+  for (const Axis axis : all_axes) {
+    const bool needed = index(axis) < 3, possible = index(axis) < 6;
+    if (count(axis) <= (possible ? 1 : 0) && count(axis) >= (needed ? 1 : 0)) continue;
+    reason =
+        "the kinematics 'chain' takes the axes X, Y, Z once each and any of A, B, C; the "
+        "driven joints are " +
+        words_of(g.words);
+    return nullptr;
+  }
+  if (couples != g.words.size()) {
+    reason = std::to_string(g.words.size() - std::min(couples, g.words.size())) +
+             " of the driven joints are not on the way from the work to the tool";
+    return nullptr;
+  }
+  auto chain = std::make_shared<Chain>(g);
+  JointVector zero = JointVector::Zero(chain->joint_count());
+  const auto tip = chain->forward(zero, {});
+  if (!tip || !chain->inverse({*tip, {}}, zero)) {
+    reason = "the directions of the linear axes lie in one plane: they can't reach every point";
+    return nullptr;
+  }
+  return chain;
+}
+
+std::vector<JointVector> chain_positions(const Kinematics& chain, const Vec3& tip, const Vec3& axis,
+                                         const AxisValues& tool_offset, const JointVector& near) {
+  const auto* self = dynamic_cast<const Chain*>(&chain);
+  return self ? self->positions(tip, axis.normalized(), tool_offset, near)
+              : std::vector<JointVector>{};
+}
+
+// Of the couples between the bed and a link, those that are driven.
+namespace {
+
+std::vector<ChainCouple> couples_to(const Machine& machine, LinkId link, config::Table& table) {
+  std::vector<ChainCouple> couples;
+  while (link != bed_link) {
+    const Link& l = machine.links()[static_cast<std::size_t>(index(link))];
+    const Joint& joint = machine.tree()[static_cast<std::size_t>(l.joint)];
+    if (joint.driven < 0)
+      table.error("type", "axis '" + joint.name +
+                              "' between work and tool is passive; 'chain' has no passive values");
+    else
+      couples.push_back({joint.kind, joint.origin, joint.direction, joint.sense, joint.driven});
+    link = l.parent;
+  }
+  std::reverse(couples.begin(), couples.end());
+  return couples;
+}
+
+}  // namespace
+
+std::shared_ptr<const Kinematics> read_chain(KinematicsInput& input) {
+  const Machine& machine = input.machine;
+  ChainGeometry g;
+  g.work = couples_to(machine, machine.work_link(), input.table);
+  g.tool = couples_to(machine, machine.spindle().link, input.table);
+  g.X_LM = machine.X_LM();
+  g.gauge = machine.spindle().gauge;
+  for (const Joint& joint : input.driven) {
+    const auto axis = joint.name.size() == 1 ? axis_of_letter(joint.name[0]) : std::nullopt;
+    if (!axis || is_rotary(*axis) != (joint.kind == JointKind::rotary)) {
+      input.table.error("type", "joint '" + joint.name +
+                                    "' has no axis letter of its kind as its name; 'chain' needs "
+                                    "X, Y, Z for linear and A, B, C for rotary axes");
+      return nullptr;
+    }
+    g.words.push_back(*axis);
+  }
+  std::string reason;
+  auto chain = make_chain(g, reason);
+  if (!chain) input.table.error("type", reason);
+  return chain;
+}
+
+}  // namespace aircut::machine
