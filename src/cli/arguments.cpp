@@ -267,6 +267,9 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     c->add_option("-m,--machine", kin.machine, "package folder, machine.toml, or a shipped name")
         ->required()
         ->type_name("MACHINE");
+    if (action == KinArguments::Action::ik)
+      c->add_flag("--tool-vector", kin.tool_vector,
+                  "rows are X Y Z I J K, the tip and the tool's direction; all joint positions");
     add_color(c, kin.color);
     c->callback([&kin, action] { kin.action = action; });
   };

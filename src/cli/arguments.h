@@ -79,6 +79,7 @@ struct MachineArguments {
 struct KinArguments {
   enum class Action { fk, ik, jac } action = Action::ik;
   std::string machine;
+  bool tool_vector = false;  ///< ik: rows are X Y Z I J K
   When color = When::automatic;
 };
 

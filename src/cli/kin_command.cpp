@@ -9,6 +9,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/job.h"
+#include "machine/kinematics/chain.h"
 
 namespace aircut::cli {
 
@@ -28,6 +29,7 @@ struct Column {
 
 using Row = std::vector<double>;
 using RowOrReason = tl::expected<Row, std::string>;
+using TextOrReason = tl::expected<std::string, std::string>;
 
 std::vector<Axis> pose_axes(const Machine& machine) {
   std::vector<Axis> axes;
@@ -52,6 +54,10 @@ std::vector<Column> joint_columns(const Machine& machine) {
   return columns;
 }
 
+std::vector<Column> vector_columns() {
+  return {{"X", 1}, {"Y", 1}, {"Z", 1}, {"I", 1}, {"J", 1}, {"K", 1}};
+}
+
 // 12 significant digits, the same in every locale.
 std::string digits12(double value) {
   char text[32];
@@ -61,10 +67,16 @@ std::string digits12(double value) {
   return std::string(text, end);
 }
 
-void print_row(const Row& row) {
+std::string text_of(const Row& row) {
   std::string line;
   for (const double value : row) line += (line.empty() ? "" : " ") + digits12(value);
-  std::puts(line.c_str());
+  return line;
+}
+
+std::string text_of_all(const std::vector<Row>& rows) {
+  std::string line;
+  for (const Row& row : rows) line += (line.empty() ? "" : " ; ") + text_of(row);
+  return line;
 }
 
 // ---- reading a row ---------------------------------------------------------------------------
@@ -193,15 +205,44 @@ std::optional<std::string> beyond_limit(const Machine& machine, const Row& joint
   return std::nullopt;
 }
 
-RowOrReason inverse_row(const Machine& machine, const Row& row) {
-  const auto q = machine.kinematics().inverse({tip_of(machine, row), {}}, machine.home());
-  if (!q) return unexpected(reason_of(q.error()));
+// Joints in the user's units.
+Row in_user_units(const Machine& machine, const JointVector& q) {
   const auto columns = joint_columns(machine);
   Row out;
   for (std::size_t i = 0; i < columns.size(); ++i)
-    out.push_back((*q)[static_cast<Eigen::Index>(i)] / columns[i].unit);
+    out.push_back(q[static_cast<Eigen::Index>(i)] / columns[i].unit);
+  return out;
+}
+
+RowOrReason inverse_row(const Machine& machine, const Row& row) {
+  const auto q = machine.kinematics().inverse({tip_of(machine, row), {}}, machine.home());
+  if (!q) return unexpected(reason_of(q.error()));
+  const Row out = in_user_units(machine, *q);
   if (const auto reason = beyond_limit(machine, out)) return unexpected(*reason);
   return out;
+}
+
+// All joint positions inside of the travel for a tip and a direction of the tool, the one nearest
+// to home first. Endless and long rotary axes have more turns than these.
+tl::expected<std::vector<Row>, std::string> vector_rows(const Machine& machine, const Row& row) {
+  const Vec3 axis(row[3], row[4], row[5]);
+  if (!(axis.norm() > 1e-9)) return unexpected(std::string("I J K has no length"));
+  auto found = machine::chain_positions(machine.kinematics(), Vec3(row[0], row[1], row[2]), axis,
+                                        {}, machine.home());
+  std::sort(found.begin(), found.end(), [&](const JointVector& a, const JointVector& b) {
+    return (a - machine.home()).norm() < (b - machine.home()).norm();
+  });
+  std::vector<Row> rows;
+  std::string reason = "the rotary axes can't turn the tool there";
+  for (const JointVector& q : found) {
+    const Row out = in_user_units(machine, q);
+    if (const auto beyond = beyond_limit(machine, out))
+      reason = *beyond;
+    else
+      rows.push_back(out);
+  }
+  if (rows.empty()) return unexpected(reason);
+  return rows;
 }
 
 // ∂ joint / ∂ pose word at a pose, row by row: a row per joint, a column per pose word.
@@ -241,17 +282,28 @@ int kin_command(const KinArguments& a) {
     return code(ExitCode::unknown);
   }
   const Machine& machine = *job.machine;
-  const auto columns = a.action == Action::fk ? joint_columns(machine) : pose_columns(machine);
-  const auto answer = [&](const Row& row) {
+  if (a.tool_vector && !machine::turns_in_two_axes(machine.kinematics())) {
+    print_error(make_error("usage",
+                           "--tool-vector needs a machine with two rotary axes and the kinematics "
+                           "'chain'; this one is '" +
+                               std::string(machine.kinematics().type()) + "'"),
+                a.color);
+    return code(ExitCode::unknown);
+  }
+  const auto columns = a.action == Action::fk ? joint_columns(machine)
+                       : a.tool_vector        ? vector_columns()
+                                              : pose_columns(machine);
+  const auto answer = [&](const Row& row) -> TextOrReason {
     switch (a.action) {
       case Action::fk:
-        return forward_row(machine, row);
+        return forward_row(machine, row).map(text_of);
       case Action::ik:
-        return inverse_row(machine, row);
+        if (a.tool_vector) return vector_rows(machine, row).map(text_of_all);
+        return inverse_row(machine, row).map(text_of);
       case Action::jac:
         break;
     }
-    return jacobian_row(machine, row);
+    return jacobian_row(machine, row).map(text_of);
   };
   std::string_view rest = (*input)->content();
   if (rest.empty()) {
@@ -262,11 +314,11 @@ int kin_command(const KinArguments& a) {
   bool good = true;
   while (!rest.empty()) {
     const std::size_t end = rest.find('\n');
-    const RowOrReason out = read_row(rest.substr(0, end), columns).and_then(answer);
+    const TextOrReason out = read_row(rest.substr(0, end), columns).and_then(answer);
     rest = end == rest.npos ? std::string_view() : rest.substr(end + 1);
     good = good && out.has_value();
     if (out)
-      print_row(*out);
+      std::puts(out->c_str());
     else
       std::printf("error: %s\n", out.error().c_str());
   }

@@ -54,6 +54,20 @@ inline std::shared_ptr<const Kinematics> sample_nutating_head() {
   return make_chain(g, reason);
 }
 
+/// A turntable C under the slide Y, so that Y turns with it, and a head A.
+inline std::shared_ptr<const Kinematics> sample_turning_slide() {
+  ChainGeometry g;
+  g.work = {{JointKind::rotary, Vec3(20, 10, 0), Vec3::UnitZ(), -1, 3},
+            {JointKind::linear, Vec3::Zero(), Vec3::UnitY(), -1, 1}};
+  g.tool = {{JointKind::linear, Vec3::Zero(), Vec3::UnitX(), 1, 0},
+            {JointKind::linear, Vec3::Zero(), Vec3::UnitZ(), 1, 2},
+            {JointKind::rotary, Vec3(0, 0, 600), Vec3::UnitX(), 1, 4}};
+  g.words = {Axis::x, Axis::y, Axis::z, Axis::c, Axis::a};
+  g.gauge = Vec3(0, 0, 400);
+  std::string reason;
+  return make_chain(g, reason);
+}
+
 inline std::vector<Sample> samples() {
   constexpr double pi = std::numbers::pi;
   constexpr double deg = pi / 180;
@@ -81,6 +95,8 @@ inline std::vector<Sample> samples() {
        axis_values(200, 150, 100, 2, 0, 6)},
       {"chain, nutating head", sample_nutating_head(), axis_values(-200, -150, -300, 0, -3, -3),
        axis_values(200, 150, 100, 0, 3, 3)},
+      {"chain, turning slide", sample_turning_slide(), axis_values(-200, -150, -300, -1, 0, -1),
+       axis_values(200, 150, 100, 1, 0, 1)},
       {"ox-glide crossed", make_ox_glide(crossed), axis_values(160, -150, -357.5),
        axis_values(349, 150, -200)},
       {"ox-glide extended", make_ox_glide(extended), axis_values(150, -150, -357.5),

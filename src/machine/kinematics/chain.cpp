@@ -8,6 +8,13 @@
 // it. The three q_i follow by Cramer's rule. The rotary joints are the program's words. Everything
 // is written once for doubles, for Jet (rates) and for Slope (travel bounds), see derivatives.h.
 //
+// Travel. When the linear couples follow each other (no rotary one between them), let z be the tip
+// seen from behind the linear couples: forwards it is the tool's tip turned by the rotary couples
+// before them, plus Σ u_i q_i with constant u_i; backwards it is the tip in M turned back by those
+// after them. So q' = U⁻¹ (z' from behind − z' from before), where every z' is a sum of terms
+// (direction turned by an angle) · tip' and (u_j × lever) · angle'. Evaluated with intervals this
+// is finite for any box. Other chains take the derivatives of the inverse (slope_bound.h).
+//
 // The tip at rest is gauge − X_LM.R · tool offset: the tool is fixed to the spindle, whose axes are
 // those of M with all joints at zero.
 #include "machine/kinematics/chain.h"
@@ -99,6 +106,10 @@ class Chain final : public Kinematics {
       couple.sense = -couple.sense;
       way_.push_back(couple);
     }
+    while (linear_begin_ < way_.size() && way_[linear_begin_].kind != JointKind::linear)
+      ++linear_begin_;
+    linear_end_ = linear_begin_;
+    while (linear_end_ < way_.size() && way_[linear_end_].kind == JointKind::linear) ++linear_end_;
   }
 
   std::string_view type() const override { return "chain"; }
@@ -171,6 +182,10 @@ class Chain final : public Kinematics {
     }
     std::fill_n(travel.begin(), joint_count(), 0.0);
     if (!turns) return straight_bound(tip.low, way, travel);
+    if (linear_couples_follow_each_other()) {
+      lever_bound(box, way, tip.tool_offset, travel);
+      return true;
+    }
     return raise_travel(
         box, way, splits, travel.first(static_cast<std::size_t>(joint_count())),
         [&](const PoseWords<Slope>& pose) { return solve<Slope>(pose, tip.tool_offset); });
@@ -183,6 +198,8 @@ class Chain final : public Kinematics {
   static constexpr int splits = 9;
 
   Axis word(int joint) const { return g_.words[static_cast<std::size_t>(joint)]; }
+
+  static Vec3 vec_of(const AxisValues& v) { return {v[Axis::x], v[Axis::y], v[Axis::z]}; }
 
   static PoseWords<double> words(const AxisValues& tip) {
     PoseWords<double> pose;
@@ -210,8 +227,7 @@ class Chain final : public Kinematics {
 
   template <class T>
   Affine<T> affine(const PoseWords<T>& pose, const AxisValues& offset) const {
-    const Vec3 tool(offset[Axis::x], offset[Axis::y], offset[Axis::z]);
-    Vector<T> p = vector_of<T>(g_.gauge - g_.X_LM.linear() * tool);
+    Vector<T> p = vector_of<T>(g_.gauge - g_.X_LM.linear() * vec_of(offset));
     std::array<Vector<T>, 3> c{};
     std::array<bool, 3> seen{};
     for (const ChainCouple& couple : way_) {
@@ -274,6 +290,61 @@ class Chain final : public Kinematics {
     return true;
   }
 
+  bool linear_couples_follow_each_other() const { return linear_end_ - linear_begin_ == 3; }
+
+  // What moves with the tip: the place seen from here, and what it changes by per pose word.
+  struct Lever {
+    Vector<Interval> at;
+    PoseWords<Vector<Interval>> by{};  // ∂ at / ∂ pose word
+
+    void turn(const ChainCouple& couple, const Interval& angle, std::size_t angle_word) {
+      const Turn<Interval> R(couple.direction, angle);
+      const Vector<Interval> o = vector_of<Interval>(couple.origin);
+      for (std::size_t i = 0; i < 3; ++i) at[i] = at[i] - o[i];
+      at = R(at);
+      for (Vector<Interval>& d : by) d = R(d);
+      by[angle_word] = cross(vector_of<Interval>(couple.direction), at);
+      for (std::size_t i = 0; i < 3; ++i) at[i] = at[i] + o[i];
+    }
+  };
+
+  void lever_bound(const PoseWords<Interval>& box, const PoseWords<double>& way,
+                   const AxisValues& offset, std::span<double> travel) const {
+    const auto angle_word = [&](const ChainCouple& c) { return index(word(c.driven)); };
+    Lever before;
+    before.at = vector_of<Interval>(g_.gauge - g_.X_LM.linear() * vec_of(offset));
+    for (std::size_t k = 0; k < linear_begin_; ++k) {
+      const Interval sense(way_[k].sense);
+      before.turn(way_[k], sense * box[angle_word(way_[k])], angle_word(way_[k]));
+    }
+    Lever behind;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 row = g_.X_LM.linear().row(static_cast<int>(i)).transpose();
+      behind.at[i] = dot(row, Vector<Interval>{box[0], box[1], box[2]}) +
+                     Interval(g_.X_LM.translation()[static_cast<int>(i)]);
+      for (std::size_t w = 0; w < 3; ++w) behind.by[w][i] = Interval(row[static_cast<int>(w)]);
+    }
+    for (std::size_t k = way_.size(); k-- > linear_end_;) {
+      const Interval back(-way_[k].sense);
+      behind.turn(way_[k], back * box[angle_word(way_[k])], angle_word(way_[k]));
+    }
+    Mat3 U;
+    for (std::size_t k = linear_begin_; k < linear_end_; ++k)
+      U.col(static_cast<int>(place_of(way_[k].driven))) = way_[k].sense * way_[k].direction;
+    const Mat3 inverse_U = U.inverse();
+    for (std::size_t l = 0; l < 3; ++l) {
+      const Vec3 row = inverse_U.row(static_cast<int>(l)).transpose();
+      Interval sum(0);
+      for (std::size_t w = 0; w < way.size(); ++w) {
+        if (way[w] == 0) continue;
+        const Interval slope = dot(row, behind.by[w]) + dot(row, before.by[w]);
+        sum = sum + Interval(slope.magnitude()) * Interval(way[w]);
+      }
+      travel[static_cast<std::size_t>(linear_[l])] = sum.high * (1 + 1e-12);  // rounding of U⁻¹
+    }
+    for (const int j : rotary_) travel[static_cast<std::size_t>(j)] = way[index(word(j))];
+  }
+
   // Place of a linear joint among the linear ones.
   std::size_t place_of(int joint) const {
     return static_cast<std::size_t>(std::find(linear_.begin(), linear_.end(), joint) -
@@ -284,6 +355,7 @@ class Chain final : public Kinematics {
   AxisSet axes_;
   std::vector<int> linear_, rotary_;
   std::vector<ChainCouple> way_;
+  std::size_t linear_begin_ = 0, linear_end_ = 0;  ///< the first linear couples of way_
 };
 
 // Angle about u that brings a to b (their parts across u); nothing when one of them is along u.
@@ -374,6 +446,11 @@ std::shared_ptr<const Kinematics> make_chain(const ChainGeometry& g, std::string
     return nullptr;
   }
   return chain;
+}
+
+bool turns_in_two_axes(const Kinematics& kinematics) {
+  const auto* chain = dynamic_cast<const Chain*>(&kinematics);
+  return chain && chain->joint_count() == 5;
 }
 
 std::vector<JointVector> chain_positions(const Kinematics& chain, const Vec3& tip, const Vec3& axis,

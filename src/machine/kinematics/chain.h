@@ -31,6 +31,9 @@ struct ChainGeometry {
 /// ones; `reason` says so then.
 std::shared_ptr<const Kinematics> make_chain(const ChainGeometry& geometry, std::string& reason);
 
+/// A chain with two rotary axes.
+bool turns_in_two_axes(const Kinematics& kinematics);
+
 /// All joint positions (angles in (−π, π]) in which the tip is at `tip` (M, mm) and the tool points
 /// along `axis` (unit vector from the tip to the spindle, M), for chains with two rotary axes:
 /// none, one or two. An angle that the direction leaves open is the one of `near`.
