@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
 namespace aircut {
@@ -182,6 +183,38 @@ TEST_F(Kin, ALengthOffsetThatChangesWhileTheToolIsTiltedIsNoPass) {
   EXPECT_EQ(WEXITSTATUS(status), 2) << text_of("out");
   EXPECT_NE(text_of("out").find("tool length offset while the tool is tilted"), std::string::npos)
       << text_of("out");
+}
+
+// k = Rz(C)·Rx(A)·z of a trunnion A-C (kinematics.md e.2) gives A and C by hand; the tip comes back
+// through fk.
+TEST_F(Kin, FindsTheJointsForAToolVector) {
+  const Outcome r = kin("ik --tool-vector -m mill5-ac", "10 20 200 0 -0.5 1\n10 0 150 1 0 1\n");
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  const std::size_t split = r.out.find(" ; "), line = r.out.find('\n');
+  ASSERT_LT(split, line) << r.out;
+  const double a = std::atan2(0.5, 1) * 180 / std::numbers::pi;
+  const auto first = rows_of(r.out.substr(0, split)).at(0);
+  const auto second = rows_of(r.out.substr(split + 3, line - split - 3)).at(0);
+  EXPECT_NEAR(first.at(3), a, 1e-9);
+  EXPECT_NEAR(first.at(4), 0, 1e-9);
+  EXPECT_NEAR(second.at(3), -a, 1e-9);
+  EXPECT_NEAR(std::abs(second.at(4)), 180, 1e-9);
+  // A may not be +45: of the second row one solution is left.
+  const std::string last = r.out.substr(line + 1);
+  EXPECT_EQ(last.find(';'), std::string::npos) << last;
+  EXPECT_NEAR(rows_of(last).at(0).at(3), -45, 1e-9);
+  EXPECT_NEAR(rows_of(last).at(0).at(4), -90, 1e-9);
+  for (const auto& joints : {r.out.substr(0, split), r.out.substr(split + 3, line - split - 3)}) {
+    const auto tip = rows_of(kin("fk -m mill5-ac", joints + "\n").out).at(0);
+    EXPECT_NEAR(tip.at(0), 10, 1e-8);
+    EXPECT_NEAR(tip.at(1), 20, 1e-8);
+    EXPECT_NEAR(tip.at(2), 200, 1e-8);
+  }
+  const Outcome bad = kin("ik --tool-vector -m mill5-ac", "1 2 3 0 0 0\n1 2 100 0 0 -1\n");
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_NE(bad.out.find("I J K has no length"), std::string::npos) << bad.out;
+  EXPECT_NE(bad.out.find("its limit is"), std::string::npos) << bad.out;
+  EXPECT_EQ(kin("ik --tool-vector -m mill3", "1 2 3 0 0 1\n").code, 2);
 }
 
 TEST_F(Kin, EndsWith2WhenThereIsNothingToAnswer) {
