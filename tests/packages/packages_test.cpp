@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
@@ -69,7 +71,9 @@ JointVector somewhere(const Machine& machine, Random& random) {
     for (int i = 0; i < machine.joint_count(); ++i) {
       const machine::Joint& joint = machine.joint(JointId{i});
       const double where = std::clamp(random.between(-0.25, 1.25), 0.0, 1.0);
-      joints[i] = joint.min + where * (joint.max - joint.min);
+      const double low = std::isfinite(joint.min) ? joint.min : -std::numbers::pi;
+      const double high = std::isfinite(joint.max) ? joint.max : std::numbers::pi;
+      joints[i] = low + where * (high - low);
     }
     if (machine.kinematics().forward(joints, {})) return joints;
   }
@@ -97,6 +101,20 @@ TEST(PackageModels, HaveClosedMeshesOfModestSize) {
   }
 }
 
+bool carries(const Machine& machine, machine::LinkId link, machine::LinkId end) {
+  while (end != machine::bed_link && end != link)
+    end = machine.links()[static_cast<std::size_t>(index(end))].parent;
+  return end == link && link != machine::bed_link;
+}
+
+// A head reaches a tilting table at the ends of its travel: of such a pair nothing is promised but
+// at home. (The program decides; that is what runs are checked for.)
+bool work_against_tool(const Machine& machine, const Body& a, const Body& b) {
+  const auto spindle = machine.spindle().link, work = machine.work_link();
+  return (carries(machine, a.link, spindle) && carries(machine, b.link, work)) ||
+         (carries(machine, b.link, spindle) && carries(machine, a.link, work));
+}
+
 TEST(PackageModels, KeepTheirBodiesApartOverTheWholeTravel) {
   for (const std::string& folder : packages()) {
     SCOPED_TRACE(folder);
@@ -115,6 +133,7 @@ TEST(PackageModels, KeepTheirBodiesApartOverTheWholeTravel) {
     std::set<std::string> told;
     // An arm reaches its own pedestal and the table; apart at home is all that can be promised.
     const int positions = machine->kinematics().type().starts_with("robot") ? 1 : 2000;
+    const bool tilts = machine->kinematics().type() == "chain";
     for (int k = 0; k < positions; ++k) {
       const JointVector joints = k == 0 ? machine->home() : somewhere(*machine, random);
       machine::forward(*machine, joints, poses);
@@ -124,6 +143,7 @@ TEST(PackageModels, KeepTheirBodiesApartOverTheWholeTravel) {
       for (std::size_t i = 0; i < bodies.size(); ++i)
         for (std::size_t j = i + 1; j < bodies.size(); ++j) {
           if (excluded(*machine, *bodies[i], *bodies[j])) continue;
+          if (tilts && k > 0 && work_against_tool(*machine, *bodies[i], *bodies[j])) continue;
           const auto gap = collide::distance(meshes[i], pose(i), meshes[j], pose(j), promised_gap);
           const std::string pair = bodies[i]->name + " – " + bodies[j]->name;
           if (!gap.capped && told.insert(pair).second)
