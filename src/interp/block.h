@@ -21,6 +21,7 @@ struct Word {
   Value text;                      ///< as written
   double number = 0;               ///< as evaluated when the block is executed
   const CodeRule* rule = nullptr;  ///< of a G or M word whose number is constant
+  bool no_point = false;           ///< a whole number without a decimal point
 };
 
 /// `#3=…` or `#<name>=…`.
@@ -54,18 +55,34 @@ enum class Keyword : unsigned char {
   endrepeat,
   break_,
   continue_,
-  fanuc_sub
+  fanuc_sub,
+  // macro B
+  program,   ///< O1234
+  goto_,     ///< GOTO n
+  if_goto,   ///< IF [c] GOTO n
+  if_then,   ///< IF [c] THEN #1=…
+  while_do,  ///< WHILE [c] DO1, or DO1 alone
+  end_,      ///< END1
+  output,    ///< DPRNT[…]
+  nothing    ///< SETVN, POPEN, PCLOS: accepted, without an effect here
 };
 
-/// `o100 while [#1 lt 5]`.
+/// `o100 while [#1 lt 5]`, or a statement of macro B.
 struct OWord {
   Keyword keyword = Keyword::none;
-  Place place;                    ///< `o` up to the keyword
+  Place place;                    ///< `o` up to the keyword; macro B: what a message underlines
   std::string label;              ///< normalised: lower case without blanks, `100`, `name`, `[#1]`
   std::optional<Value> computed;  ///< label given as an expression
   std::vector<Value> arguments;
   std::vector<Place> argument_places;
   std::int32_t entry = -1;  ///< index in the file's flow index once known
+};
+
+/// A line of a program by its place.
+struct BlockPlace {
+  std::uint64_t begin = 0;  ///< byte offset of the line
+  std::uint64_t after = 0;  ///< of the line behind it
+  std::uint32_t line = 0;   ///< from 1
 };
 
 struct Block {
@@ -76,12 +93,16 @@ struct Block {
   bool block_delete = false;
   bool empty = true;             ///< nothing but blanks
   bool has_rules = false;        ///< has G or M words
+  bool plain_settings = true;    ///< macro B: of no system variable
   bool plain_move = true;        ///< nothing but axis words and perhaps G0 or G1
   std::uint32_t letters = 0;     ///< bit per letter_index of a word
   bool has_expressions = false;  ///< some word needs evaluation
   std::vector<Word> words;
   std::array<std::int8_t, 32> slot{};  ///< letter_index → position in words, -1 without
   std::vector<Setting> settings;
+  std::int64_t number = -1;        ///< macro B: of the N word
+  std::vector<Word> macro_words;   ///< macro B: behind G65 or G66, in the order of the line
+  std::vector<Fault> warnings;     ///< told when the block is executed
   std::optional<Comment> comment;  ///< the last parenthesised one
   OWord oword;
   Code code;                   ///< instructions of all expressions of the line

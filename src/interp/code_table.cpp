@@ -204,6 +204,8 @@ const char* name_of(ModalGroup group) {
       return "overrides";
     case ModalGroup::user:
       return "user codes";
+    case ModalGroup::macro_call:
+      return "macro calls";
   }
   return "";
 }

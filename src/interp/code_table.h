@@ -37,7 +37,8 @@ enum class ModalGroup : unsigned char {
   spindle,
   coolant,
   override_,
-  user
+  user,
+  macro_call
 };
 const char* name_of(ModalGroup group);
 

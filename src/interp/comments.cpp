@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "interp/dialect.h"
 #include "interp/impl.h"
 
 namespace aircut::interp {
@@ -99,6 +100,8 @@ std::string expand_message(std::string_view text, Parameters& parameters) {
 }
 
 void comment_action(std::string_view text, Place place, BlockRun& run) {
+  if (!run.session.table.dialect().active_comments)
+    return run.emit(canon::Message{Kind::comment, std::string(trimmed(text))});
   const auto expanded = [&](std::string_view what) {
     return expand_message(what, run.session.parameters);
   };

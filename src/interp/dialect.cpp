@@ -3,9 +3,54 @@
 namespace aircut::interp {
 namespace {
 
-constexpr DialectTraits linuxcnc{"LinuxCNC", false, true, false, true, false, 252, 4, 9};
-constexpr DialectTraits fanuc{"Fanuc", true, false, true, true, true, 0, 3, 10};
-constexpr DialectTraits haas{"Haas", true, false, true, true, true, 0, 1, 9};
+constexpr DialectTraits linuxcnc{.name = "LinuxCNC",
+                                 .macro_b = false,
+                                 .active_comments = true,
+                                 .least_increments = false,
+                                 .end_required = true,
+                                 .motion_at_start = false,
+                                 .max_line = 252,
+                                 .max_m_words = 4,
+                                 .max_depth = 9,
+                                 .max_macro_depth = 9,
+                                 .max_brackets = 64,
+                                 .bare_conditions = false,
+                                 .packed_counts = false,
+                                 .full_turn = false,
+                                 .local_subs = false,
+                                 .feed_increments = false};
+constexpr DialectTraits fanuc{.name = "Fanuc",
+                              .macro_b = true,
+                              .active_comments = false,
+                              .least_increments = true,
+                              .end_required = true,
+                              .motion_at_start = true,
+                              .max_line = 4096,
+                              .max_m_words = 3,
+                              .max_depth = 10,
+                              .max_macro_depth = 4,
+                              .max_brackets = 5,
+                              .bare_conditions = false,
+                              .packed_counts = true,
+                              .full_turn = true,
+                              .local_subs = false,
+                              .feed_increments = false};
+constexpr DialectTraits haas{.name = "Haas",
+                             .macro_b = true,
+                             .active_comments = false,
+                             .least_increments = true,
+                             .end_required = true,
+                             .motion_at_start = true,
+                             .max_line = 4096,
+                             .max_m_words = 1,
+                             .max_depth = 9,
+                             .max_macro_depth = 9,
+                             .max_brackets = 64,
+                             .bare_conditions = true,
+                             .packed_counts = false,
+                             .full_turn = false,
+                             .local_subs = true,
+                             .feed_increments = true};
 
 }  // namespace
 

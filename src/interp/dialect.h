@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "interp/block.h"
 #include "interp/code_table.h"
 #include "interp/interp.h"
 
@@ -21,7 +22,18 @@ struct DialectTraits {
   std::uint32_t max_line;  ///< characters of a line without its end; 0: any number
   int max_m_words;         ///< M words on one line
   int max_depth;           ///< nested calls
+  int max_macro_depth;     ///< of them those with variables of their own (G65, G66)
+  int max_brackets;        ///< [ ] inside each other
+  bool bare_conditions;    ///< IF and WHILE without brackets
+  bool packed_counts;      ///< M98 P30012 calls O0012 three times
+  bool full_turn;          ///< ATAN[y]/[x] gives 0 to 360, ASIN 270 to 90, else both as LinuxCNC
+  bool local_subs;         ///< M97 P100 calls the lines from N100
+  bool feed_increments;    ///< F without a decimal point counts increments too
 };
+
+/// Words that count least increments without a decimal point (macro B); F has its own rule.
+constexpr std::uint32_t increment_letters = axis_letters | letter_bit('I') | letter_bit('J') |
+                                            letter_bit('K') | letter_bit('Q') | letter_bit('R');
 
 const DialectTraits& traits_of(Dialect dialect);
 

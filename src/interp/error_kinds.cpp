@@ -9,6 +9,10 @@ const std::vector<KindText>& error_kinds() {
       {"alarm", "the program stopped itself",
        "The program asked for its own end with (ABORT, text), usually because a check in it "
        "failed. Example: `(ABORT, no stock)`. Read the text and what led to the line."},
+      {"ambiguous_logic", "AND, OR, XOR beside a comparison without brackets",
+       "Warning. On Fanuc-like controls AND binds as close as * and OR as +, so `[#1 EQ 1 AND #2 "
+       "EQ "
+       "2]` compares #1 with `1 AND #2`. Write `[[#1 EQ 1] AND [#2 EQ 2]]`."},
       {"arc_error", "an arc whose geometry does not work",
        "The end must lie on the circle that centre (I J K) or radius (R) give, in the plane in "
        "force. Example: `G2 X10 Y0 I4` from X0 ends 2 mm off the circle; right is `I5`. Check the "
@@ -64,6 +68,11 @@ const std::vector<KindText>& error_kinds() {
       {"cycle_error", "a canned cycle that can't be carried out",
        "R must lie above the bottom, rotary axes can't move in it, G93 is not possible. Example: "
        "`G81 X1 R-5 Z-1`."},
+      {"decimal_point", "a number without a decimal point counts increments",
+       "Warning. On Fanuc-like controls X10 is 0.010 mm or 0.0010 in, X10. is 10. Write the point, "
+       "or "
+       "say that the control reads whole units (--whole-units). Only the first 20 words are told. "
+       "Example: `G0 X10`."},
       {"duplicate_word", "a letter twice on a line",
        "Each letter but G and M may stand once. Example: `G0 X1 X2`."},
       {"dwell_time", "a dwell of less than no time",
@@ -110,6 +119,9 @@ const std::vector<KindText>& error_kinds() {
        "finite. Example: `[1/#1]` with #1 = 0."},
       {"misplaced_word", "N or an O-word that is not the first word",
        "N stands first, then an O-word. Example: `G0 N10`."},
+      {"mixed_block", "words and a macro statement in one block",
+       "Fanuc-like controls take either words or settings, IF, GOTO, WHILE, DO and END in a block. "
+       "Example: `G0 X1. #1=5`. Use two blocks."},
       {"modal_clash", "two codes of one group on a line",
        "Only one of a group can act. Example: `G0 G1 X1`, `M7 M8`. Use two lines."},
       {"modal_stack", "M72 without anything saved",
@@ -136,6 +148,10 @@ const std::vector<KindText>& error_kinds() {
        "G38 needs G94 and another end than the current point. Example: `G38.2 X0` at X0."},
       {"program_end_missing", "the program does not end",
        "Add M2 or M30 as the last line, or put the program between % lines."},
+      {"program_restart", "M99 in the main program",
+       "Info. The control would start the program again and again; one pass is executed here. End "
+       "with "
+       "M30 when it is to run once."},
       {"shared_axis_words", "axis words used for an offset and a move",
        "Warning. In `G43.1 Z1 G0 X3` both words set the offset and are the end of the move. Use "
        "two lines."},
@@ -158,6 +174,9 @@ const std::vector<KindText>& error_kinds() {
        "than `J`."},
       {"too_many_m", "more than four M words",
        "Put the others on a line of their own. Example: `M3 M8 M48 M64 P1 M0`."},
+      {"time_unknown", "a timer that is read before the run",
+       "Warning. What the timers #3001 and #3002 would show is not known when the program is read; "
+       "they count 1 ms per block here, so that loops that wait for them end."},
       {"tool_not_selected", "M6 without a tool selected",
        "Warning. M6 before any T word empties the spindle. Give T before."},
       {"tool_unknown", "a tool that is not in the table",

@@ -2,6 +2,7 @@
 // group, axis words, words that nobody uses), then the codes in the order of their phases.
 #include "base/text.h"
 #include "interp/codes/codes.h"
+#include "interp/dialect.h"
 #include "interp/impl.h"
 
 namespace aircut::interp {
@@ -37,6 +38,7 @@ void BlockExecutor::execute(std::string_view line) {
 
 // Words and settings read the parameters as they are before the line.
 bool BlockExecutor::evaluate() {
+  if (run_.session.table.dialect().macro_b) return evaluate_macro_b();
   if (!block_.has_expressions) return true;
   std::optional<Fault> fault;
   for (Word& word : block_.words) {
@@ -55,6 +57,7 @@ bool BlockExecutor::evaluate() {
 
 bool BlockExecutor::settings() {
   if (block_.settings.empty()) return true;
+  if (run_.session.table.dialect().macro_b) return macro_settings();
   Parameters& parameters = run_.session.parameters;
   // A line has room for no more settings than this: each takes four characters.
   std::array<std::pair<std::int32_t, double>, 64> set;  // number, or -1 - name
@@ -112,6 +115,23 @@ void BlockExecutor::add(Phase phase, const CodeRule* rule, char letter) {
   items_[at] = {phase, rule, letter};
 }
 
+// Of two codes of one group the control takes the last one.
+void BlockExecutor::replace_code(const CodeRule& rule, Place place) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    const CodeRule* other = items_[i].rule;
+    if (!other || other->letter != 'G' || other->group != rule.group) continue;
+    if (other->code != rule.code)
+      run_.warning("modal_clash", place,
+                   name_of(*other) + " stands in the same block and is of the same group (" +
+                       name_of(rule.group) + "); the control takes the last one, " + name_of(rule));
+    if (own_ == other) own_ = nullptr;
+    if (shared_ == other) shared_ = nullptr;
+    for (std::size_t k = i + 1; k < count_; ++k) items_[k - 1] = items_[k];
+    --count_;
+    return;
+  }
+}
+
 // Finds the rows of the codes, clashes in a group, and codes that are not known.
 bool BlockExecutor::collect() {
   std::uint32_t groups = 0;
@@ -146,7 +166,9 @@ bool BlockExecutor::collect() {
       return false;
     }
     const std::uint32_t group = 1u << static_cast<unsigned>(rule->group);
-    if (groups & group) {
+    if ((groups & group) && word.letter == 'G' && run_.session.table.dialect().macro_b) {
+      replace_code(*rule, word.place);
+    } else if (groups & group) {
       run_.error("modal_clash", word.place,
                  name_of(*rule) + " stands on one line with another code of the same group (" +
                      name_of(rule->group) + "); put it on a line of its own");

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "base/text.h"
+#include "interp/macro_expression.h"
 #include "interp/parameters.h"
 
 namespace aircut::interp {
@@ -45,6 +46,7 @@ struct Machine {
   bool unary(const Instruction& at);
   bool binary(const Instruction& at);
   bool parameter(const Instruction& at);
+  bool macro(const Instruction& at);
   bool step(const Instruction& at);
 };
 
@@ -176,8 +178,24 @@ bool Machine::parameter(const Instruction& at) {
   }
 }
 
+bool Machine::macro(const Instruction& at) {
+  if (at.op == Op::read_system) return read(at, at.id);
+  if (at.op == Op::vacant) {
+    push(vacant_value);
+    return true;
+  }
+  const bool two = at.op >= Op::same;
+  const double b = two ? pop() : 0;
+  std::string problem;
+  const auto value = macro_operation(at.op, top(), b, parameters, problem);
+  if (!value) return fail(at, std::move(problem));
+  top() = *value;
+  return true;
+}
+
 bool Machine::step(const Instruction& at) {
   if (at.op == Op::read) return read(at, at.id);
+  if (is_macro(at.op)) return macro(at);
   const bool is_parameter = at.op > Op::read && at.op <= Op::exists_named;
   const bool is_binary = (at.op >= Op::power && at.op <= Op::xor_) || at.op == Op::atan;
   const bool ok = is_parameter ? parameter(at) : is_binary ? binary(at) : unary(at);
@@ -245,7 +263,7 @@ std::optional<double> evaluate(const Value& value, const Code& code, const Param
 
 std::optional<int> as_integer(double value) {
   const double nearest = std::round(value);
-  if (std::fabs(value - nearest) > 1e-4 || std::fabs(nearest) > 1e9) return std::nullopt;
+  if (!(std::fabs(value - nearest) <= 1e-4) || std::fabs(nearest) > 1e9) return std::nullopt;
   return static_cast<int>(nearest);
 }
 

@@ -53,7 +53,29 @@ enum class Op : unsigned char {
   sqrt,
   tan,
   atan,  ///< two operands: y, x
+  // Of macro B (macro_expression.cpp). A vacant variable is NaN on the stack; nothing but these
+  // operations ever sees it.
+  vacant,            ///< push #0
+  read_system,       ///< push the system variable `id`
+  make_solid,        ///< a vacant variable counts as 0
+  negate_or_vacant,  ///< a vacant variable stays vacant
+  truncate,          ///< FIX: towards 0
+  away,              ///< FUP: away from 0
+  round_address,     ///< ROUND inside a word: to the least increment
+  asin_turn,         ///< ASIN from 270 to 90 degrees
+  atan_one,          ///< ATAN with one operand, from -90 to 90 degrees
+  bin,               ///< from binary coded decimal
+  bcd,               ///< to binary coded decimal
+  same,              ///< EQ: vacant is like vacant only
+  not_same,          ///< NE
+  remainder,         ///< MOD with the sign of the dividend
+  and_bits,
+  or_bits,
+  xor_bits,
+  atan_turn,  ///< ATAN with two operands, from 0 to 360 degrees
 };
+
+constexpr bool is_macro(Op op) { return op >= Op::vacant; }
 
 struct Instruction {
   Op op = Op::number;
@@ -78,7 +100,8 @@ struct Fault {
   std::string message;
 };
 
-/// The number, or nothing with `fault` filled in. Never NaN or infinity.
+/// The number, or nothing with `fault` filled in. Never infinity, and NaN only for a vacant
+/// variable of macro B.
 std::optional<double> evaluate(const Value& value, const Code& code, const Parameters& parameters,
                                std::optional<Fault>& fault);
 

@@ -4,17 +4,12 @@
 // A unary minus belongs to the value behind it, so [-2**2] is 4.
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "interp/dialect.h"
 #include "interp/line_parser.h"
 
 namespace aircut::interp {
-
-struct Operator {
-  const char* name;
-  Op op;
-  int level;
-};
-
 namespace {
 
 constexpr int max_bracket_depth = 64;
@@ -103,7 +98,7 @@ bool LineParser::operand() {
     in_.advance();
     if (!operand()) return false;
     --depth_;
-    if (c == '-') emit(Op::negate, {begin, 1});
+    if (c == '-') emit(table_.dialect().macro_b ? Op::negate_or_vacant : Op::negate, {begin, 1});
     return true;
   }
   if (is_letter(c)) return function(begin);
@@ -128,8 +123,16 @@ bool LineParser::expression_in_brackets() {
   const std::uint32_t begin = in_.position();
   if (++depth_ > max_bracket_depth)
     return fail_here("bad_expression", "more than 64 brackets and signs inside each other");
+  const int most = table_.dialect().max_brackets;
+  if (++brackets_ > most)
+    return fail_here("bad_expression", "more than " + std::to_string(most) +
+                                           " brackets inside each other, which the control can't "
+                                           "take; split the expression");
   in_.advance();
+  const bool relation = std::exchange(relation_, false), logic = std::exchange(logic_, false);
   if (!climb(1)) return false;
+  relation_ = relation;
+  logic_ = logic;
   if (!in_.accept(']')) {
     if (in_.at_end())
       return fail_from("bad_expression", begin, "the bracket '[' is not closed; add ']'");
@@ -139,6 +142,7 @@ bool LineParser::expression_in_brackets() {
     return fail_here("bad_expression",
                      "expected an operator or ']' instead of " + quoted(in_.peek()));
   }
+  --brackets_;
   --depth_;
   return true;
 }
@@ -147,7 +151,8 @@ const Operator* LineParser::peek_operator() {
   const std::uint32_t begin = in_.position();
   const char c = in_.peek();
   if (c == ']' || in_.at_end()) return nullptr;
-  for (const Operator& op : operators) {
+  for (const Operator& op :
+       table_.dialect().macro_b ? macro_operators() : std::span<const Operator>(operators)) {
     if (op.name[0] != c) continue;
     const bool found = in_.accept_word(op.name);
     in_.go_to(begin);
@@ -164,12 +169,18 @@ bool LineParser::climb(int level) {
     const std::uint32_t begin = in_.position();
     in_.accept_word(op->name);
     const Place place{begin, in_.length_since(begin)};
+    // Only EQ and NE of macro B tell a vacant variable from 0.
+    const bool sees_vacant = op->op == Op::same || op->op == Op::not_same;
+    if (table_.dialect().macro_b) note_logic(*op, place);
+    if (!sees_vacant) make_solid();
     if (!climb(op->level + 1)) return false;
+    if (!sees_vacant) make_solid();
     emit(op->op, place);
   }
 }
 
 bool LineParser::function(std::uint32_t begin) {
+  if (table_.dialect().macro_b) return macro_function(begin);
   for (const Function& known : functions) {
     if (!in_.accept_word(known.name)) continue;
     if (is_letter(in_.peek())) {  // the beginning of another name
@@ -221,6 +232,7 @@ bool LineParser::exists(std::uint32_t begin) {
 }
 
 bool LineParser::parameter(bool only_exists) {
+  if (table_.dialect().macro_b) return macro_parameter();
   const std::uint32_t begin = in_.position();
   in_.advance();
   if (in_.peek() == '<') {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "interp/dialect.h"
 #include "interp/lexer.h"
 #include "interp/parser.h"
 
@@ -95,6 +96,10 @@ bool is_percent(std::string_view line) {
 
 FlowIndex::FlowIndex(std::string_view text, std::uint64_t begin, bool block_delete,
                      bool stops_at_percent, Parameters& parameters, const CodeTable& table) {
+  if (table.dialect().macro_b) {
+    read_macro_b(text, begin, block_delete, stops_at_percent, parameters, table);
+    return;
+  }
   Block block;
   std::uint32_t line_number = 0;
   bool first = true;
@@ -239,6 +244,11 @@ void FlowIndex::leave_open(int at, const std::string& text) {
 void FlowIndex::end_scope() {
   for (const int at : open_) {
     const FlowEntry& entry = entries[static_cast<std::size_t>(at)];
+    if (entry.keyword == Keyword::while_do) {
+      problem(at, "label_missing",
+              "DO" + entry.label + " has no end in its program; add END" + entry.label);
+      continue;
+    }
     leave_open(at, std::string("this ") + text_of(entry.keyword) + " has no end; add o" +
                        entry.label + " " + text_of(end_of(entry.keyword)));
   }

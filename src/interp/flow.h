@@ -31,6 +31,14 @@ struct FlowEntry {
   std::string problem;  ///< what is wrong with it when it is reached
 };
 
+/// A block with an N word (macro B).
+struct NumberedBlock {
+  std::int32_t number = 0;
+  int program = -1;  ///< entry of the program that it is in, -1 without header
+  int loop = -1;     ///< entry of the innermost DO around it
+  BlockPlace place;
+};
+
 class Parameters;
 class CodeTable;
 
@@ -48,7 +56,20 @@ class FlowIndex {
   /// Fanuc-style `OLABEL` behind `after`, else anywhere, or -1.
   int find_fanuc(std::string_view label, std::uint64_t after) const;
 
+  // ---- macro B: programs, DO and END are entries; a DO has the DO around it as `next`
+  /// The header `O` number, or -1.
+  int find_program(std::int64_t number) const { return find_sub(std::to_string(number)); }
+  /// The header above the line that begins there, or -1.
+  int program_at(std::uint64_t begin) const;
+  /// N `number` of the program in which the line at `from` stands: the first one behind that line,
+  /// else the first one from the top, as the control looks for it.
+  const NumberedBlock* find_block(std::int64_t number, std::uint64_t from) const;
+
  private:
+  void read_macro_b(std::string_view text, std::uint64_t begin, bool block_delete,
+                    bool stops_at_percent, Parameters& parameters, const CodeTable& table);
+  void connect_macro_b(int at);
+  void close_loop(int at);
   void connect();
   void open(int at);
   void close(int at);
@@ -62,6 +83,7 @@ class FlowIndex {
   std::set<std::string> used_;  ///< labels of the scope
   std::map<std::string, int, std::less<>> subs_;
   int sub_ = -1;
+  std::vector<NumberedBlock> numbered_;  ///< by program, number, place
 };
 
 }  // namespace aircut::interp

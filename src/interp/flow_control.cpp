@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "interp/codes/codes.h"
 #include "interp/impl.h"
+#include "interp/macro_expression.h"
 
 namespace aircut::interp {
 namespace {
@@ -34,8 +35,8 @@ void Interpreter::Impl::execute_oword(Block& block) {
   if (&block != &scratch_) entry(at).block = &block;
   if (!entry_is_sound(at)) return;
   switch (oword.keyword) {
-    case Keyword::none:
     case Keyword::fanuc_sub:
+    default:
       return;
     case Keyword::sub:
       return pass_sub(block, at);
@@ -210,7 +211,8 @@ void Interpreter::Impl::leave_or_continue(Block& block, int at) {
 }
 
 // The parameters that the loop's condition reads, with their last values.
-std::string Interpreter::Impl::tested_values(const Frame& frame, const FlowEntry& head) {
+std::string Interpreter::Impl::tested_values(const Frame& frame, const FlowEntry& head,
+                                             Keyword only) {
   const FlowEntry& place = head.keyword == Keyword::do_
                                ? frame.file->flow->entries[static_cast<std::size_t>(head.partner)]
                                : head;
@@ -219,13 +221,14 @@ std::string Interpreter::Impl::tested_values(const Frame& frame, const FlowEntry
   std::string_view line = text.substr(place.begin, place.after - place.begin);
   while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
   if (parse_line(line, parameters_, table_, block)) return {};
+  if (only != Keyword::none && block.oword.keyword != only) return {};
   std::vector<std::string> seen;
   std::string values;
   std::optional<Fault> fault;
   for (const Instruction& i : block.code) {
     std::string name;
     std::optional<double> value;
-    if (i.op == Op::read) {
+    if (i.op == Op::read || i.op == Op::read_system) {
       name = "#" + std::to_string(i.id);
       value = parameters_.read(i.id, i.place, fault);
     } else if (i.op == Op::read_named) {
@@ -234,7 +237,8 @@ std::string Interpreter::Impl::tested_values(const Frame& frame, const FlowEntry
     }
     if (!value || std::find(seen.begin(), seen.end(), name) != seen.end()) continue;
     seen.push_back(name);
-    values += (values.empty() ? "" : ", ") + name + " = " + shortest(*value);
+    values += (values.empty() ? "" : ", ") + name +
+              (is_vacant(*value) ? " vacant" : " = " + shortest(*value));
   }
   return values;
 }
@@ -272,9 +276,13 @@ std::shared_ptr<const CallFrame> Interpreter::Impl::current_calls() {
       made->site.line = head.line;
       made->site.calls = std::move(calls);
       made->what.reserve(32);
-      made->what += written_label(head.label);
-      made->what += ' ';
-      made->what += word_of(head.keyword);
+      if (head.keyword == Keyword::while_do) {
+        made->what += "DO" + head.label;
+      } else {
+        made->what += written_label(head.label);
+        made->what += ' ';
+        made->what += word_of(head.keyword);
+      }
       made->what += ", pass ";
       made->what += std::to_string(loop.pass);
       loop.frame = std::move(made);

@@ -20,6 +20,8 @@ struct ProgramFile {
   const SourceText* text = nullptr;
   std::uint64_t begin = 0;  ///< behind a byte order mark
   bool percent = false;     ///< starts and ends with `%`
+  std::int64_t whole_program =
+      -1;  ///< macro B: number of the call whose file it is, without header
   std::unique_ptr<FlowIndex> flow;
   std::unordered_map<std::uint64_t, std::unique_ptr<Block>> blocks;  ///< parsed lines of loops
 };
@@ -42,9 +44,18 @@ struct ContourReading {
   bool failed = false;
 };
 
+/// A GOTO that went back, to tell an endless one.
+struct BackwardJump {
+  BlockPlace from;  ///< the block with the GOTO
+  Place place;      ///< of its statement
+  std::uint64_t to = 0;
+  std::uint64_t count = 0;
+};
+
 /// The main program, or one call.
 struct Frame {
   ProgramFile* file = nullptr;
+  BlockPlace start;           ///< what a repeated call begins with; `after` and the line before it
   std::uint64_t at = 0;       ///< byte offset of the next line
   std::uint32_t line = 0;     ///< number of the line before it
   Block* last = nullptr;      ///< cached block that was executed last
@@ -57,6 +68,22 @@ struct Frame {
   std::optional<ModalState> saved;          ///< M70, M73
   bool restore_at_return = false;           ///< M73
   std::unique_ptr<ContourReading> reading;  ///< its moves are a contour
+
+  // macro B
+  bool header_seen = false;          ///< the O word of the program that the lines belong to
+  bool jumped = false;               ///< some GOTO went back: lines are worth keeping
+  bool modal_call = false;           ///< called by G66
+  std::int64_t program = 0;          ///< number of the O word
+  std::uint64_t call_site = 0;       ///< the calling block
+  std::vector<double> locals;        ///< #1-#33 at the begin of a macro call; empty for M98
+  std::optional<BackwardJump> back;  ///< the last one
+};
+
+/// A macro that is called behind every move (G66).
+struct ModalMacro {
+  std::int64_t label = 0;
+  std::uint64_t repeats = 1;
+  std::vector<double> locals;
 };
 
 class Interpreter::Impl final : public Site, private LiveValues {
@@ -70,6 +97,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   Statistics statistics() const { return statistics_; }
 
   const SourceSpan& span() override;
+  std::optional<BlockPlace> find_block(std::int64_t number) override;
+  std::optional<Fault> read_block(const BlockPlace& at, Block& out) override;
   std::uint32_t block_number() const override {
     return static_cast<std::uint32_t>(statistics_.blocks);
   }
@@ -78,13 +107,16 @@ class Interpreter::Impl final : public Site, private LiveValues {
   // ---- LiveValues (live.cpp)
   std::optional<double> numbered(int n, Place place, std::optional<Fault>& fault) const override;
   double predefined(int index) const override;
+  std::optional<double> system_variable(int n, Place place,
+                                        std::optional<Fault>& fault) const override;
+  double increments_per_unit() const override;
 
   // ---- start (start.cpp)
   void start(const ParameterFile& file);
   void load_parameters(const ParameterFile& file);
   void apply_settings();
   bool text_is_readable();
-  static void find_percent(ProgramFile& file);
+  void find_percent(ProgramFile& file) const;
   void emit_start_state();
 
   // ---- lines (interpreter.cpp)
@@ -93,6 +125,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   Block* parse_cached(Frame& frame);
   void parse_into(Frame& frame, Block& block);
   void end_of_file();
+  bool is_percent_line(const ProgramFile& file, std::string_view line) const;
   void execute(Block& block);
   void execute_words(Block& block);
   bool plain_move(Block& block);
@@ -115,12 +148,35 @@ class Interpreter::Impl final : public Site, private LiveValues {
   bool entry_is_sound(int at);
   void report_at(const FlowEntry& where);
   void loop_limit(const Frame& frame, const std::string& which);
-  std::string tested_values(const Frame& frame, const FlowEntry& head);
+  std::string tested_values(const Frame& frame, const FlowEntry& head,
+                            Keyword only = Keyword::none);
   void jump_to(const FlowEntry& entry);
   void jump_behind(const FlowEntry& entry);
   void call(Block& block);
   std::optional<std::string> label_of(const Block& block);
   std::optional<std::vector<double>> arguments_of(const Block& block);
+
+  // ---- macro B (macro_flow.cpp, macro_calls.cpp)
+  void execute_macro(Block& block);
+  void enter_program(Block& block);
+  void enter_do(Block& block, int at);
+  void end_do(int at);
+  void write_out(const Block& block);
+  std::optional<std::int64_t> block_number_of(const Block& block, std::size_t argument);
+  bool jump_to_block(std::int64_t number, Place place);
+  void leave_loops_for(const NumberedBlock& target);
+  bool may_jump_into(const NumberedBlock& target, Place place);
+  void goto_limit(const Frame& frame, const std::string& which);
+  void call_macro_b(const FlowRequest& request);
+  void call_local(const FlowRequest& request);
+  void return_macro_b(const FlowRequest& request);
+  bool push_program(const FlowRequest& request, std::string what);
+  ProgramFile* find_program(std::int64_t number, Place place, int& entry);
+  ProgramFile* open_program_file(std::int64_t number, Place place, int& entry);
+  void modal_macro_call(const BlockRun& run);
+  Block& without_vacant(Block& block);
+  void remember_words(const Block& block);
+
   void call_fanuc(const FlowRequest& request);
   bool enter_sub(ProgramFile& file, int at, const std::vector<double>* arguments, std::string what);
   void pass_sub(Block& block, int at);
@@ -129,6 +185,10 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void return_from_call();
   ProgramFile* find_file_with_sub(const std::string& name);
   ProgramFile* open_sub_file(const std::string& name, Place place);
+  std::vector<std::string> sub_folders() const;
+  bool push_frame(Frame frame, std::string what, const std::vector<double>* arguments = nullptr);
+  bool count_file(ProgramFile& file, Place place);
+  BlockPlace first_line(const ProgramFile& file) const;
   ProgramFile& file_for(const SourceText& text);
   FlowEntry& entry(int at) {
     return frames_.back().file->flow->entries[static_cast<std::size_t>(at)];
@@ -145,6 +205,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void report(const Fault& fault);
   void report(const char* kind, Place place, std::string message);
   void warn(const Fault& fault);
+  void inform(const Fault& fault);
   bool is_cascade(const Fault& fault) const;
   void run_block(BlockRun& run, Block& block);
   void remember_failure(const Block& block);
@@ -185,6 +246,10 @@ class Interpreter::Impl final : public Site, private LiveValues {
   bool percent_seen_ = false;
   std::uint64_t idle_blocks_ = 0;
   std::size_t cached_blocks_ = 0;
+  std::optional<ModalMacro> modal_macro_;
+  Block reduced_;                        ///< a block without its vacant words
+  std::array<double, 26> last_words_{};  ///< numbers by letter, for #4107…
+  std::int64_t last_number_ = 0;         ///< of the last N word
   Unsure unsure_;
   bool failed_ = false;            ///< some block has failed
   std::vector<int> kept_numbers_;  ///< that the parameter file had
@@ -215,7 +280,9 @@ class BlockExecutor {
   };
 
   bool evaluate();
+  bool evaluate_macro_b();
   bool settings();
+  bool macro_settings();
   bool collect();
   bool find_motion();
   bool check_words();
@@ -223,6 +290,7 @@ class BlockExecutor {
   void perform(const Item& item);
   void after_motion(const CodeRule& rule);
   void add(Phase phase, const CodeRule* rule, char letter);
+  void replace_code(const CodeRule& rule, Place place);
 
   BlockRun& run_;
   Block& block_;

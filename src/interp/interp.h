@@ -39,6 +39,7 @@ struct Limits {
 
 struct Options {
   Dialect dialect = Dialect::linuxcnc;
+  bool whole_units = false;  ///< Fanuc, Haas: X1 is X1. and not 0.001 mm
   bool lathe = false;  ///< Fanuc, Haas: G-code system A of turning centres, else machining centres
   canon::Unit machine_unit = canon::Unit::millimetre;  ///< of tool table, var file, #5xxx
   canon::Unit start_unit = canon::Unit::millimetre;    ///< G20/G21 at the start

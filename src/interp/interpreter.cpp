@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
+#include "interp/dialect.h"
 #include "interp/impl.h"
 #include "interp/interp.h"
 #include "interp/lexer.h"
@@ -82,7 +83,7 @@ Block* Interpreter::Impl::parse_cached(Frame& frame) {
 
 Block* Interpreter::Impl::fetch() {
   Frame& frame = frames_.back();
-  const bool repeated = frames_.size() > 1 || !frame.loops.empty();
+  const bool repeated = frames_.size() > 1 || !frame.loops.empty() || frame.jumped;
   Block* block = repeated ? parse_cached(frame) : nullptr;
   if (block) {
     frame.at = block->next_begin;
@@ -101,11 +102,11 @@ Block* Interpreter::Impl::fetch() {
   const std::string_view line = frame.file->text->content().substr(block->begin, block->length);
   frame.at = block->next_begin;
   frame.line = block->line;
-  if (frame.file->percent && is_percent(line)) {
+  if (is_percent_line(*frame.file, line)) {
     frame.last = nullptr;
     if (own) refused_ = std::move(own);
-    if (frames_.size() > 1 || percent_seen_) {
-      if (frames_.size() > 1) {
+    if (frames_.size() > 1 || percent_seen_ || !frame.file->percent) {
+      if (frames_.size() > 1 || table_.dialect().macro_b) {
         end_of_file();
       } else {
         statistics_.ended = true;
@@ -136,6 +137,14 @@ Block* Interpreter::Impl::fetch() {
   return block;
 }
 
+// Whatever stands behind `%` is not read by controls with macro B, and one at the end needs none at
+// the begin.
+bool Interpreter::Impl::is_percent_line(const ProgramFile& file, std::string_view line) const {
+  if (!table_.dialect().macro_b) return file.percent && is_percent(line);
+  const std::size_t first = line.find_first_not_of(" \t");
+  return first != std::string_view::npos && line[first] == '%';
+}
+
 void Interpreter::Impl::step() {
   const Frame& frame = frames_.back();
   if (frame.at >= frame.file->text->content().size()) return end_of_file();
@@ -144,18 +153,22 @@ void Interpreter::Impl::step() {
   ++statistics_.lines;
   if (block->empty || (block->block_delete && options_.block_delete)) return;
   if (!count_block()) return;
-  if (block->oword.keyword != Keyword::none)
+  if (block->oword.keyword >= Keyword::program)
+    execute_macro(*block);
+  else if (block->oword.keyword != Keyword::none)
     execute_oword(*block);
+  else if (block->has_expressions && table_.dialect().macro_b)
+    execute_words(without_vacant(*block));
   else
     execute_words(*block);
 }
 
 void Interpreter::Impl::end_of_file() {
   const Frame& frame = frames_.back();
-  if (frames_.size() > 1 && frame.sub >= 0) {
+  if (frames_.size() > 1) {
     report("label_missing", {0, block_ ? block_->length : 0},
            frame.fanuc ? "the sub has no end; add M99" : "the sub has no end; add endsub");
-  } else if (frame.file->percent) {
+  } else if (frame.file->percent && !table_.dialect().macro_b) {
     report("percent_missing", {0, block_ ? block_->length : 0},
            "the program begins with '%' and must end with a line that holds only '%'");
   } else {
@@ -177,6 +190,11 @@ bool Interpreter::Impl::count_block() {
   for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
     if (frame->loops.empty()) continue;
     loop_limit(*frame, which);
+    return false;
+  }
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
+    if (!frame->back || frame->back->count < 2) continue;
+    goto_limit(*frame, which);
     return false;
   }
   warn(Fault{
@@ -246,11 +264,14 @@ bool Interpreter::Impl::plain_move(Block& block) {
 void Interpreter::Impl::execute_words(Block& block) {
   if (contour_frame_ >= 0) return read_contour_block(block);
   if (plain_move(block)) return;
-  if (block.words.empty() && !block.comment) {  // settings alone leave the modal state as it is
+  const bool settings_only = block.words.empty() && !block.comment;
+  if (settings_only && (!table_.dialect().macro_b ||
+                        block.plain_settings)) {  // settings alone leave the modal state as it is
     BlockRun run(session_, block, state_, *this, queue_);
     BlockExecutor(run, block).execute({});
     if (run.ok()) {
       parameters_.commit();
+      for (const Fault& warning : block.warnings) warn(warning);
       if (failed_) {
         next_ = state_;
         clear_unsure(block, state_.tip);
@@ -288,20 +309,51 @@ void Interpreter::Impl::execute_words(Block& block) {
   if (run.stack.save) frame.saved = run.stack.save;
   if (run.stack.restore_at_return) frame.restore_at_return = true;
   for (const Fault& warning : run.warnings()) warn(warning);
+  for (const Fault& warning : block.warnings) warn(warning);
+  for (const Fault& info : run.infos()) inform(info);
+  if (table_.dialect().macro_b) remember_words(block);
   for (std::size_t i = first; i < queue_.size(); ++i)
     if (takes_time(queue_[i].action)) idle_blocks_ = 0;
   switch (run.flow.kind) {
     case FlowRequest::Kind::none:
+      if (modal_macro_) modal_macro_call(run);
       break;
     case FlowRequest::Kind::end:
       statistics_.ended = true;
       stop();
       break;
     case FlowRequest::Kind::call:
-      call_fanuc(run.flow);
+      if (table_.dialect().macro_b)
+        call_macro_b(run.flow);
+      else
+        call_fanuc(run.flow);
       break;
     case FlowRequest::Kind::return_:
-      return_fanuc();
+      if (table_.dialect().macro_b)
+        return_macro_b(run.flow);
+      else
+        return_fanuc();
+      break;
+    case FlowRequest::Kind::jump:
+      frame.at = run.flow.target.after;
+      frame.line = run.flow.target.line;
+      frame.last = frame.upcoming = nullptr;
+      break;
+    case FlowRequest::Kind::local_call:
+      call_local(run.flow);
+      break;
+    case FlowRequest::Kind::macro_call:
+      call_macro_b(run.flow);
+      break;
+    case FlowRequest::Kind::modal_call:
+      if (modal_macro_)
+        report("unsupported_code", run.flow.place,
+               "a second G66 before G67 (nested modal calls) is not implemented");
+      else
+        modal_macro_ = ModalMacro{run.flow.label, run.flow.repeats, run.flow.locals};
+      break;
+    case FlowRequest::Kind::modal_end:
+      modal_macro_.reset();
       break;
     case FlowRequest::Kind::contour:
       start_contour(run.flow, *run.motion_rule);
@@ -377,7 +429,14 @@ void Interpreter::Impl::warn(const Fault& fault) {
   const SourceSpan at = span_of(fault.place);
   if (reported_.size() >= max_reported || !reported_.emplace(at.text, at.begin, fault.kind).second)
     return;
+  if (std::string_view(fault.kind) == "decimal_point") ++session_.points_missing;
   diagnostics_.warning(fault.kind, at, fault.message);
+}
+
+void Interpreter::Impl::inform(const Fault& fault) {
+  const SourceSpan at = span_of(fault.place);
+  if (!reported_.emplace(at.text, at.begin, fault.kind).second) return;
+  diagnostics_.add({Severity::info, fault.kind, fault.message, at});
 }
 
 }  // namespace aircut::interp

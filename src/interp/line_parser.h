@@ -1,8 +1,10 @@
 // The recursive descent over one line, shared by the files that hold its parts: parser.cpp (words,
-// comments, settings), expression_parser.cpp (values) and oword_parser.cpp (flow of control).
+// comments, settings), expression_parser.cpp (values) and oword_parser.cpp (flow of control);
+// macro_parser.cpp and macro_expression_parser.cpp have what Fanuc-like dialects do otherwise.
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -14,7 +16,11 @@
 
 namespace aircut::interp {
 
-struct Operator;
+struct Operator {
+  const char* name;
+  Op op;
+  int level;  ///< higher binds closer
+};
 
 inline bool is_letter(char c) { return c >= 'a' && c <= 'z'; }
 inline bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -51,6 +57,33 @@ class LineParser {
   bool label();
   bool only_comments_left();
 
+  // ---- macro B (macro_parser.cpp)
+  std::optional<Fault> parse_macro_b();
+  bool macro_item();
+  std::optional<bool> macro_statement();
+  bool program_header();
+  bool block_number();
+  bool end_of_block();
+  bool macro_if(std::uint32_t begin);
+  bool macro_goto(std::uint32_t begin, Keyword keyword);
+  bool macro_while(std::uint32_t begin);
+  bool loop_number(std::uint32_t begin, Keyword keyword);
+  bool output_statement(std::uint32_t begin);
+  bool condition();
+  bool add_macro_word(Word& word);
+  bool macro_setting(Setting& setting);
+
+  // ---- values of macro B (macro_expression_parser.cpp)
+  std::span<const Operator> macro_operators() const;
+  bool macro_function(std::uint32_t begin);
+  bool macro_arguments(int& count);
+  bool macro_parameter();
+  bool whole_expression(Value& out);
+  /// A vacant variable on top of the stack counts as 0 from here on.
+  void make_solid();
+  void make_solid_value(Value& value);
+  void note_logic(const Operator& op, Place place);
+
   bool value(Value& out);
   bool operand();
   bool expression_in_brackets();
@@ -73,6 +106,11 @@ class LineParser {
   int depth_ = 0;
   int m_words_ = 0;
   int g_groups_ = 0;
+  int brackets_ = 0;          ///< open ones, for the control's own limit
+  bool relation_ = false;     ///< the innermost bracket has EQ, NE …
+  bool logic_ = false;        ///< and AND, OR, XOR
+  char address_ = 0;          ///< of the word whose value is being read
+  bool macro_words_ = false;  ///< what follows are arguments of G65 or G66
 };
 
 }  // namespace aircut::interp

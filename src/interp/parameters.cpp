@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "interp/macro_expression.h"
 
 namespace aircut::interp {
 namespace {
@@ -87,8 +88,12 @@ const std::vector<std::string>& predefined_names() {
   return names;
 }
 
-Parameters::Parameters(const LiveValues& live, std::map<std::string, double> ini)
-    : live_(live), values_(number::last + 1, 0.0), levels_(1) {
+Parameters::Parameters(const LiveValues& live, std::map<std::string, double> ini, bool macro_b)
+    : live_(live), macro_b_(macro_b), values_(number::last + 1, 0.0), levels_(1) {
+  if (macro_b) {
+    first_computed_ = macro_locals + 1;
+    std::fill(values_.begin() + 1, values_.begin() + first_system, vacant_value);
+  }
   for (auto& [key, value] : ini) ini_[upper(key)] = value;
   values_[number::active_system] = 1;
   values_[number::debug_enabled] = 1;
@@ -97,6 +102,11 @@ Parameters::Parameters(const LiveValues& live, std::map<std::string, double> ini
 bool Parameters::read_only(int n) { return is_live(n); }
 
 std::optional<double> Parameters::read_high(int n, Place place, std::optional<Fault>& fault) const {
+  if (macro_b_) {
+    if (n == 0) return vacant_value;
+    if (is_macro_variable(n)) return values_[static_cast<std::size_t>(n)];
+    return live_.system_variable(n, place, fault);
+  }
   if (!in_range(n)) {
     fault = Fault{"parameter_range", place,
                   "there is no parameter #" + std::to_string(n) + "; numbers go from 1 to " +
@@ -242,8 +252,8 @@ void Parameters::roll_back() {
 
 void Parameters::enter(const std::vector<double>* arguments) {
   Level level;
-  level.saves = arguments != nullptr;
   if (arguments) {
+    level.saves = 30;
     for (std::size_t i = 0; i < 30; ++i) {
       level.saved[i] = values_[i + 1];
       values_[i + 1] = i < arguments->size() ? (*arguments)[i] : 0;
@@ -254,9 +264,18 @@ void Parameters::enter(const std::vector<double>* arguments) {
 
 void Parameters::leave() {
   const Level& level = levels_.back();
-  if (level.saves)
-    for (std::size_t i = 0; i < 30; ++i) values_[i + 1] = level.saved[i];
+  for (std::size_t i = 0; i < level.saves; ++i) values_[i + 1] = level.saved[i];
   levels_.pop_back();
+}
+
+void Parameters::enter_macro(const std::vector<double>& locals) {
+  Level level;
+  level.saves = macro_locals;
+  for (std::size_t i = 0; i < level.saves; ++i) {
+    level.saved[i] = values_[i + 1];
+    values_[i + 1] = locals[i];
+  }
+  levels_.push_back(std::move(level));
 }
 
 }  // namespace aircut::interp

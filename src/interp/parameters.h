@@ -44,24 +44,39 @@ class LiveValues {
                                          std::optional<Fault>& fault) const = 0;
   /// Of a predefined name (index in predefined_names()).
   virtual double predefined(int index) const = 0;
+  /// Of a system variable of macro B (#1000…); nothing with a fault when there is none.
+  virtual std::optional<double> system_variable(int, Place, std::optional<Fault>&) const {
+    return std::nullopt;
+  }
+  /// Least increments in a unit of length: 1000 per mm, 10000 per inch.
+  virtual double increments_per_unit() const { return 1000; }
 };
 
 const std::vector<std::string>& predefined_names();
 
 class Parameters {
  public:
-  Parameters(const LiveValues& live, std::map<std::string, double> ini);
+  /// `macro_b`: variables of Fanuc-like controls, vacant until they are set.
+  Parameters(const LiveValues& live, std::map<std::string, double> ini, bool macro_b = false);
 
   // ---- numbered
   static bool in_range(int n) { return n >= 1 && n <= number::last; }
   static bool read_only(int n);
   std::optional<double> read(int n, Place place, std::optional<Fault>& fault) const {
-    if (n >= 1 && n < number::absolute_position) return values_[static_cast<std::size_t>(n)];
+    if (n >= 1 && n < first_computed_) return values_[static_cast<std::size_t>(n)];
     return read_high(n, place, fault);
   }
   /// A stored value, for numbers that are not computed.
   double stored(int n) const { return values_[static_cast<std::size_t>(n)]; }
   void write(int n, double value);
+
+  /// Variables of macro B that a program may use for what it likes.
+  static bool is_macro_variable(int n) {
+    return (n >= 1 && n <= macro_locals) || (n >= 100 && n < 200) || (n >= 500 && n < 1000);
+  }
+  static constexpr int macro_locals = 33;
+  static constexpr int first_system = 1000;  ///< of the system variables
+  double increments_per_unit() const { return live_.increments_per_unit(); }
 
   // ---- named
   std::int32_t intern(std::string_view name);
@@ -78,6 +93,8 @@ class Parameters {
   /// A new level of local names. With `arguments`, #1… are filled from them and the rest of
   /// #1-#30 is 0 until the level ends; without, #1-#30 are shared (M98).
   void enter(const std::vector<double>* arguments);
+  /// A level of macro B: `locals` are its #1-#33, those of the caller come back at its end.
+  void enter_macro(const std::vector<double>& locals);
   void leave();
 
   // ---- transactions
@@ -95,8 +112,8 @@ class Parameters {
   };
   struct Level {
     std::vector<std::pair<std::int32_t, double>> locals;
-    bool saves = false;
-    std::array<double, 30> saved{};
+    std::size_t saves = 0;  ///< how many of #1… come back
+    std::array<double, macro_locals> saved{};
   };
   struct Change {
     std::int32_t id = 0;  ///< a number, or -1 - name
@@ -110,6 +127,8 @@ class Parameters {
   void set_named(std::int32_t id, bool defined, double value);
 
   const LiveValues& live_;
+  bool macro_b_ = false;
+  int first_computed_ = number::absolute_position;  ///< below are stored values
   std::map<std::string, double> ini_;
   std::vector<double> values_;
   std::vector<Name> names_;

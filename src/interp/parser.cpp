@@ -16,6 +16,7 @@ std::optional<Fault> LineParser::parse() {
              std::to_string(max_line_length) + ", split it");
     return fault_;
   }
+  if (table_.dialect().macro_b) return parse_macro_b();
   if (in_.accept('/')) out_.block_delete = true;
   if (in_.peek() == 'n' && !line_number()) return fault_;
   if (in_.peek() == 'o') {
@@ -84,9 +85,15 @@ bool LineParser::word(char letter) {
   if (letter == 'o')
     return fail_here("misplaced_word", "an O-word must be the first word of the line (after N)");
   in_.advance();
+  const std::uint32_t begin = in_.position();
+  address_ = word.letter;
   if (!value(word.text)) return false;
+  address_ = 0;
   word.place.length = in_.length_since(word.place.begin);
-  return add_word(word);
+  if (!table_.dialect().macro_b) return add_word(word);
+  const std::string_view text = in_.line().substr(begin, in_.length_since(begin));
+  word.no_point = word.text.constant() && text.find_first_of(".[") == std::string_view::npos;
+  return add_macro_word(word);
 }
 
 bool LineParser::add_word(Word& word) {
@@ -123,6 +130,7 @@ bool LineParser::setting() {
   Setting setting;
   setting.place.begin = in_.position();
   in_.advance();
+  if (table_.dialect().macro_b) return macro_setting(setting);
   if (in_.peek() == '<') {
     const auto name = name_in_angles();
     if (!name) return false;
@@ -145,6 +153,8 @@ bool LineParser::setting() {
 void Block::clear() {
   length = 0;
   block_delete = false;
+  number = -1;
+  plain_settings = true;
   empty = true;
   has_rules = false;
   plain_move = true;
@@ -153,6 +163,8 @@ void Block::clear() {
   words.clear();
   slot.fill(-1);
   settings.clear();
+  macro_words.clear();
+  warnings.clear();
   comment.reset();
   if (oword.keyword != Keyword::none || !oword.label.empty()) oword = OWord{};
   code.clear();

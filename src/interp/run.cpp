@@ -52,6 +52,16 @@ void BlockRun::warning(const char* kind, Place place, std::string message) {
   warnings_.push_back({kind, place, std::move(message)});
 }
 
+std::string BlockRun::text_of(const Comment& comment) const {
+  const SourceSpan& span = site_.span();
+  return std::string(
+      span.text->content().substr(span.begin + comment.text_begin, comment.text_length));
+}
+
+void BlockRun::info(const char* kind, const CodeRule& rule, std::string message) {
+  infos_.push_back({kind, place(rule), std::move(message)});
+}
+
 canon::Command BlockRun::make(canon::Action action, std::string expanded) {
   canon::Command command;
   command.action = std::move(action);

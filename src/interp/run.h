@@ -26,14 +26,30 @@ struct Session {
   Compensator compensator;
   std::vector<canon::SplineFeed::Point> nurbs;  ///< control points since G5.2, machine coordinates
   double machine_unit_mm = 1;
+  int points_missing = 0;  ///< `decimal_point` warnings told so far
 };
 
 /// What a block asks of the flow of control once it has succeeded.
 struct FlowRequest {
-  enum class Kind : unsigned char { none, end, call, return_, contour } kind = Kind::none;
-  std::int64_t label = 0;     ///< M98 P, the sub of a contour
-  std::uint64_t repeats = 1;  ///< M98 L
-  AxisValues contour_start;   ///< tip from which a contour begins
+  enum class Kind : unsigned char {
+    none,
+    end,
+    call,        ///< M98
+    return_,     ///< M99
+    contour,     ///< the sub of a cycle's contour
+    jump,        ///< go on behind `target` (contours of N blocks that a cycle has used)
+    local_call,  ///< M97
+    macro_call,  ///< G65
+    modal_call,  ///< G66
+    modal_end    ///< G67
+  } kind = Kind::none;
+  std::int64_t label = 0;             ///< P: program, or block of M97
+  std::uint64_t repeats = 1;          ///< L
+  std::optional<std::int64_t> block;  ///< M99 P
+  std::vector<double> locals;         ///< #1-#33 of a macro call
+  Place place;                        ///< for messages
+  BlockPlace target;
+  AxisValues contour_start;  ///< tip from which a contour begins
 };
 
 /// M70, M71, M73: done once the block has succeeded, by the flow of control, which owns the levels.
@@ -52,6 +68,8 @@ class Site {
   virtual ~Site() = default;
   virtual const SourceSpan& span() = 0;
   virtual std::uint32_t block_number() const = 0;
+  virtual std::optional<BlockPlace> find_block(std::int64_t number) = 0;
+  virtual std::optional<Fault> read_block(const BlockPlace& at, Block& out) = 0;
 };
 
 class ContourReader;
@@ -93,6 +111,10 @@ class BlockRun {
     return word ? word->number * state.unit_mm() : otherwise;
   }
   bool has_axis_words() const { return axis_words_; }
+  /// What stands between the parentheses of the block's comment.
+  std::string text_of(const Comment& comment) const;
+  /// Blocks executed so far, this one included.
+  double block_count() const { return static_cast<double>(site_.block_number()); }
   /// An axis word's number in mm or rad, X halved in diameter mode; nothing without the word.
   std::optional<double> axis(Axis which) const;
 
@@ -103,6 +125,15 @@ class BlockRun {
   bool given(const CodeRule& rule) const;
   Place whole() const { return {0, block.length}; }
 
+  // ---- other lines of the program (macro B)
+  /// N `number` of this program: behind this block, else from the top.
+  std::optional<BlockPlace> find_block(std::int64_t number) { return site_.find_block(number); }
+  /// Parses a line of this program's text; places in it are relative to that line. `at.after` is
+  /// filled in with where the next line begins, so that a range can be read line by line.
+  std::optional<Fault> read_block(const BlockPlace& at, Block& out) {
+    return site_.read_block(at, out);
+  }
+
   // ---- results
   void error(const char* kind, Place place, std::string message);
   void error(const char* kind, char letter, std::string message) {
@@ -112,9 +143,11 @@ class BlockRun {
     error(kind, place(rule), std::move(message));
   }
   void warning(const char* kind, Place place, std::string message);
+  void info(const char* kind, const CodeRule& rule, std::string message);
   bool ok() const { return !fault_; }
   const std::optional<Fault>& fault() const { return fault_; }
   const std::vector<Fault>& warnings() const { return warnings_; }
+  const std::vector<Fault>& infos() const { return infos_; }
 
   /// Appends a command; while radius compensation holds a move back, it waits behind that move.
   void emit(canon::Action action, std::string expanded = {});
@@ -148,6 +181,7 @@ class BlockRun {
   std::vector<canon::Command>& out_;
   std::optional<Fault> fault_;
   std::vector<Fault> warnings_;
+  std::vector<Fault> infos_;
   std::vector<tool::Tool> old_tools_;
   bool axis_words_ = false;
 };

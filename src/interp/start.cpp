@@ -26,7 +26,7 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
       reader_(std::move(reader)),
       diagnostics_(diagnostics),
       table_(options_.dialect, options_.lathe),
-      parameters_(*this, options_.ini),
+      parameters_(*this, options_.ini, table_.dialect().macro_b),
       tools_(tools),
       session_{options_,
                table_,
@@ -77,6 +77,7 @@ void Interpreter::Impl::apply_settings() {
     Block block;
     const std::string line = target + "=" + shortest(value);
     const auto fault = parse_line(line, parameters_, table_, block);
+    const bool macro_b = table_.dialect().macro_b;
     const bool is_setting = !fault && block.settings.size() == 1 && block.words.empty();
     bool done = false;
     if (is_setting) {
@@ -86,7 +87,9 @@ void Interpreter::Impl::apply_settings() {
         if (done) parameters_.write_named(setting.name, value);
       } else {
         const int n = as_integer(setting.target.number).value_or(0);
-        done = setting.target.constant() && Parameters::in_range(n) && !Parameters::read_only(n);
+        done = setting.target.constant() &&
+               (macro_b ? Parameters::is_macro_variable(n)
+                        : Parameters::in_range(n) && !Parameters::read_only(n));
         if (done) parameters_.write(n, value);
       }
     }
@@ -131,17 +134,31 @@ bool Interpreter::Impl::text_is_readable() {
 }
 
 // The first line that is not blank decides whether `%` brackets the program.
-void Interpreter::Impl::find_percent(ProgramFile& file) {
+void Interpreter::Impl::find_percent(ProgramFile& file) const {
   const std::string_view text = file.text->content();
   for (std::uint64_t at = file.begin; at < text.size();) {
     const LineExtent extent = find_line_end(text, at);
     const std::string_view line = trimmed(text.substr(at, extent.end - at));
     if (!line.empty()) {
-      file.percent = line == "%";
+      file.percent = table_.dialect().macro_b ? line.front() == '%' : line == "%";
       return;
     }
     at = extent.next;
   }
+}
+
+// A file without a program header is run from its first line, behind the `%`.
+BlockPlace Interpreter::Impl::first_line(const ProgramFile& file) const {
+  BlockPlace place{file.begin, file.begin, 0};
+  const std::string_view text = file.text->content();
+  while (file.percent && place.after < text.size()) {
+    const LineExtent extent = find_line_end(text, place.after);
+    const std::string_view line = trimmed(text.substr(place.after, extent.end - place.after));
+    place.after = extent.next;
+    ++place.line;
+    if (!line.empty()) break;
+  }
+  return place;
 }
 
 void Interpreter::Impl::emit_start_state() {

@@ -100,23 +100,12 @@ ProgramFile* Interpreter::Impl::open_sub_file(const std::string& name, Place pla
            "the program's folder or the sub path");
     return nullptr;
   }
-  std::vector<std::string> folders = {folder_of(frames_.front().file->text->name())};
-  for (const std::string& folder : options_.sub_path)
-    folders.push_back(folder.empty() || folder.back() == '/' ? folder : folder + "/");
-  if (opened_order_.size() >= max_files) {
-    report("limit_reached", place, "more than 10000 files of subs were opened");
-    statistics_.limit_reached = true;
-    stop();
-    return nullptr;
-  }
-  for (const std::string& folder : folders) {
+  for (const std::string& folder : sub_folders()) {
     if (!reader_) break;
     const auto text = reader_(folder + name + ".ngc");
     if (!text) continue;
     ProgramFile& file = file_for(**text);
-    opened_order_.push_back(&file);
-    if (file.text->content().starts_with("\xef\xbb\xbf")) file.begin = 3;
-    find_percent(file);
+    if (!count_file(file, place)) return nullptr;
     if (flow_of(file).find_sub(name) >= 0) return &file;
     report("sub_missing", place,
            "the file '" + printable(file.text->name()) + "' has no '" +
@@ -127,6 +116,26 @@ ProgramFile* Interpreter::Impl::open_sub_file(const std::string& name, Place pla
          "there is no sub " + written_label(printable(name)) + " in this program and no file '" +
              printable(name) + ".ngc' in its folder or the sub path");
   return nullptr;
+}
+
+std::vector<std::string> Interpreter::Impl::sub_folders() const {
+  std::vector<std::string> folders = {folder_of(frames_.front().file->text->name())};
+  for (const std::string& folder : options_.sub_path)
+    folders.push_back(folder.empty() || folder.back() == '/' ? folder : folder + "/");
+  return folders;
+}
+
+bool Interpreter::Impl::count_file(ProgramFile& file, Place place) {
+  if (opened_order_.size() >= max_files) {
+    report("limit_reached", place, "more than 10000 files of subs were opened");
+    statistics_.limit_reached = true;
+    stop();
+    return false;
+  }
+  opened_order_.push_back(&file);
+  if (file.text->content().starts_with("\xef\xbb\xbf")) file.begin = 3;
+  find_percent(file);
+  return true;
 }
 
 void Interpreter::Impl::call(Block& block) {
@@ -151,6 +160,16 @@ void Interpreter::Impl::call(Block& block) {
 
 bool Interpreter::Impl::enter_sub(ProgramFile& file, int at, const std::vector<double>* arguments,
                                   std::string what) {
+  const FlowEntry& sub = file.flow->entries[static_cast<std::size_t>(at)];
+  Frame frame;
+  frame.file = &file;
+  frame.start = {sub.begin, sub.after, sub.line};
+  frame.sub = at;
+  return push_frame(std::move(frame), std::move(what), arguments);
+}
+
+bool Interpreter::Impl::push_frame(Frame frame, std::string what,
+                                   const std::vector<double>* arguments) {
   if (static_cast<int>(frames_.size()) > options_.limits.max_depth) {
     report("call_depth", {0, block_->length},
            "more than " + std::to_string(options_.limits.max_depth) +
@@ -159,18 +178,18 @@ bool Interpreter::Impl::enter_sub(ProgramFile& file, int at, const std::vector<d
     stop();
     return false;
   }
-  const FlowEntry& sub = file.flow->entries[static_cast<std::size_t>(at)];
   auto call = std::make_shared<CallFrame>();
   call->site = span();
   call->what = std::move(what);
-  Frame frame;
-  frame.file = &file;
-  frame.at = sub.after;
-  frame.line = sub.line;
-  frame.sub = at;
+  frame.at = frame.start.after;
+  frame.line = frame.start.line;
+  frame.call_site = block_->begin;
   frame.calls = std::move(call);
+  if (frame.locals.empty())
+    parameters_.enter(arguments);
+  else
+    parameters_.enter_macro(frame.locals);
   frames_.push_back(std::move(frame));
-  parameters_.enter(arguments);
   return true;
 }
 

@@ -33,7 +33,11 @@ TEST(ErrorKinds, EachHasAProgramThatProvokesIt) {
     const std::string path = folder + kind.kind + ".ngc";
     ASSERT_TRUE(std::filesystem::exists(path)) << path;
     SourceMap sources;
-    const Ran ran = run_program(sources, read(path), small_limits());
+    Setting setting = small_limits();
+    const std::string text = read(path);
+    if (text.find("(! dialect fanuc)") != std::string::npos)
+      setting.options.dialect = interp::Dialect::fanuc;
+    const Ran ran = run_program(sources, text, setting);
     const auto& list = ran.diagnostics.list();
     const auto hit = std::find_if(list.begin(), list.end(),
                                   [&](const Diagnostic& d) { return d.kind == kind.kind; });

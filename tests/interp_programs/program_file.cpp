@@ -26,12 +26,16 @@ std::vector<std::string> split(const std::string& text, const std::string& separ
   return parts;
 }
 
-/// The text behind `; word:` in a line, if it is there.
+/// The text behind `; word:` in a line, or inside `( word: )`, if it is there.
 std::optional<std::string> remark(const std::string& line, const std::string& word) {
   const std::string mark = "; " + word + ":";
-  const std::size_t at = line.find(mark);
+  if (const std::size_t at = line.find(mark); at != std::string::npos)
+    return trimmed(line.substr(at + mark.size()));
+  const std::string inside = "( " + word + ":";
+  const std::size_t at = line.find(inside);
   if (at == std::string::npos) return std::nullopt;
-  return trimmed(line.substr(at + mark.size()));
+  const std::size_t begin = at + inside.size();
+  return trimmed(line.substr(begin, line.find(')', begin) - begin));
 }
 
 /// Takes `; error: …` and `; warning: …` off the end of an expectation on the same line.
@@ -56,6 +60,13 @@ void read_setting(ProgramFile& program, const std::string& setting) {
     program.options.machine_unit = unit();
   } else if (key == "start-unit") {
     program.options.start_unit = unit();
+  } else if (key == "dialect") {
+    program.options.dialect = rest == "haas" ? interp::Dialect::haas : interp::Dialect::fanuc;
+    program.options.machine_unit = canon::Unit::millimetre;
+  } else if (key == "lathe") {
+    program.options.lathe = true;
+  } else if (key == "whole-units") {
+    program.options.whole_units = true;
   } else if (key == "block-delete") {
     program.options.block_delete = true;
   } else if (key == "tool") {
@@ -138,6 +149,8 @@ ProgramFile read_program_file(const std::string& name, const std::string& text,
     ++number;
     if (const auto at = line.find(";! "); at != std::string::npos)
       read_setting(program, line.substr(at + 3));
+    if (const auto at = line.find("(! "); at != std::string::npos)
+      read_setting(program, trimmed(line.substr(at + 3, line.find(')', at) - at - 3)));
     read_remarks(program, line, number, last_expecting);
   }
   if (program.tools.empty()) program.tools = common_tools;

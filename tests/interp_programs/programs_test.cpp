@@ -13,6 +13,13 @@ namespace aircut::test {
 namespace {
 
 const std::string folder = AIRCUT_SOURCE_DIR "/tests/interp_programs/programs";
+const std::string fanuc_folder = AIRCUT_SOURCE_DIR "/tests/interp_programs/fanuc";
+
+std::vector<ProgramFile> all_programs() {
+  std::vector<ProgramFile> all = read_program_folder(folder);
+  for (ProgramFile& program : read_program_folder(fanuc_folder)) all.push_back(std::move(program));
+  return all;
+}
 
 std::string joined(const std::vector<std::string>& parts, const char* separator) {
   std::string out;
@@ -20,20 +27,29 @@ std::string joined(const std::vector<std::string>& parts, const char* separator)
   return out.empty() ? "nothing" : out;
 }
 
+/// A comment for this test, which the interpreter takes for one of the program.
+bool is_remark(const std::string& text) {
+  for (const char* mark : {"expect:", "then:", "error:", "warning:", "file-error:", "!"})
+    if (text.starts_with(std::string("comment ") + mark)) return true;
+  return false;
+}
+
 /// What came out, by line of the program.
 std::map<std::uint32_t, Expectation> by_line(const Outcome& outcome) {
   std::map<std::uint32_t, Expectation> lines;
   for (const canon::Command& command : outcome.commands) {
     if (command.block == 0 || command.span.line == 0) continue;
+    std::string said = canon::to_text(command.action);
+    if (is_remark(said)) continue;
     auto& commands = lines[command.span.line].commands;
     if (!commands) commands.emplace();
-    commands->push_back(canon::to_text(command.action));
+    commands->push_back(std::move(said));
   }
   for (const Outcome::Found& found : outcome.found) {
     auto& line = lines[found.line];
     if (found.severity == Severity::error || found.kind == "loop_limit")
       line.errors.push_back(found.kind);
-    if (found.severity == Severity::warning) line.warnings.push_back(found.kind);
+    if (found.severity != Severity::error) line.warnings.push_back(found.kind);
   }
   return lines;
 }
@@ -88,7 +104,7 @@ int compare(const ProgramFile& program) {
 
 std::vector<ProgramFile> programs() {
   const char* only = std::getenv("AIRCUT_PROGRAM");
-  std::vector<ProgramFile> all = read_program_folder(folder);
+  std::vector<ProgramFile> all = all_programs();
   if (only)
     std::erase_if(all,
                   [&](const ProgramFile& p) { return p.name.find(only) == std::string::npos; });
@@ -125,7 +141,7 @@ std::set<std::string> kinds_of_broken_texts() {
 
 TEST(Programs, ProvokeEveryKindOfError) {
   std::set<std::string> provoked = kinds_of_broken_texts();
-  for (const ProgramFile& program : read_program_folder(folder)) {
+  for (const ProgramFile& program : all_programs()) {
     for (const auto& [number, line] : program.lines) {
       provoked.insert(line.errors.begin(), line.errors.end());
       provoked.insert(line.warnings.begin(), line.warnings.end());

@@ -61,6 +61,12 @@ void digital_output(const CodeRule&, BlockRun&);
 void analog_output(const CodeRule&, BlockRun&);
 void wait_input(const CodeRule&, BlockRun&);
 void user_code(const CodeRule&, BlockRun&);
+// macro_calls.cpp: programs of Fanuc-like controls
+void call_program(const CodeRule&, BlockRun&);
+void call_local_sub(const CodeRule&, BlockRun&);
+void return_from_program(const CodeRule&, BlockRun&);
+void call_macro(const CodeRule&, BlockRun&);
+void end_modal_macro(const CodeRule&, BlockRun&);
 // program.cpp
 void program_stop(const CodeRule&, BlockRun&);
 void program_end(const CodeRule&, BlockRun&);
