@@ -219,6 +219,7 @@ std::string CsvJointLog::Impl::header() const {
     out += std::string("# ") + name + "=" + printable(value) + "\n";
   };
   std::string names, v, a, j, row = "t,line,block,motion,feed_cmd,feed_act,s";
+  bool jerk = false;
   for (int i = 0; i < machine.joint_count(); ++i) {
     const machine::Joint& joint = machine.joint(machine::JointId{i});
     const double unit = scale[static_cast<std::size_t>(i)];
@@ -226,6 +227,7 @@ std::string CsvJointLog::Impl::header() const {
     names += comma + joint.name + (joint.kind == machine::JointKind::rotary ? ":deg" : ":mm");
     v += comma + shortest(joint.vmax * unit);
     a += comma + shortest(joint.amax * unit);
+    jerk = jerk || !std::isinf(joint.jmax);
     j += comma + (std::isinf(joint.jmax) ? "inf" : shortest(joint.jmax * unit));
   }
   for (const char* letter : {"q", "v", "a"})
@@ -250,7 +252,7 @@ std::string CsvJointLog::Impl::header() const {
   key("limits_v", v);
   key("limits_a", a);
   key("limits_j", j);
-  key("planner", "second");
+  key("planner", jerk ? "third" : "second");
   key("default_p_mm", "0");
   key("default_q_mm", "0");
   key("start_pose", pose);

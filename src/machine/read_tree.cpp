@@ -60,9 +60,7 @@ void read_limits(config::Table& table, Joint& joint, double unit_mm) {
   joint.amax = positive(table, "amax", unit, "the top acceleration in units per second²");
   table.know("jmax");
   if (table.has("jmax"))
-    table.report({Severity::warning, "machine_invalid",
-                  "the planner of this version does not keep 'jmax'", table.span("jmax")});
-  if (table.has("jmax")) joint.jmax = positive(table, "jmax", unit, "");
+    joint.jmax = positive(table, "jmax", unit, "the jerk in units per second³");
 
   // Wrapping changes which way a rotary axis turns; without it the motion would be another one.
   const std::string wrap = table.choice("wrap", {"none", "shortest", "modulo"}, "none");

@@ -37,6 +37,11 @@ double entry_speed(const Piece& piece, const Controllable& controllable) {
 
 }  // namespace
 
+Chain::Chain(std::size_t max_nodes, const JointLimits& limits, double period)
+    : max_nodes_(max_nodes) {
+  if (limits.has_jerk()) jerk_.emplace(limits, limits.j.cwiseQuotient(limits.a), period);
+}
+
 void Chain::push(Piece piece) {
   if (piece.entry <= 0) stop();
   nodes_ += piece.grid.nodes();
@@ -45,17 +50,27 @@ void Chain::push(Piece piece) {
 }
 
 void Chain::push_still(Segment segment) {
-  if (window_.empty())
-    hand_out(std::move(segment));
-  else
+  if (!window_.empty()) {
     window_.back().after.push_back(std::move(segment));
+  } else if (jerk_) {
+    jerk_->push_still(std::move(segment));
+    drain_jerk_stage();
+  } else {
+    hand_out(std::move(segment));
+  }
 }
 
 void Chain::stop() {
-  if (window_.empty()) return;
+  if (window_.empty()) {
+    if (jerk_) jerk_->stop();
+    drain_jerk_stage();
+    return;
+  }
   brake_all();
   emit(window_.size());
   b_ = 0;
+  if (jerk_) jerk_->stop();
+  drain_jerk_stage();
 }
 
 // Backward pass for a window that ends at rest.
@@ -97,15 +112,26 @@ void Chain::emit(std::size_t count) {
     Segment& segment = item.piece.segment;
     segment.profile = std::move(ride.profile);
     segment.limited_by = longest(ride.time);
-    hand_out(std::move(segment));
-    for (Segment& still : item.after) hand_out(std::move(still));
     nodes_ -= item.piece.grid.nodes();
+    if (jerk_) {
+      jerk_->push(std::move(segment), std::move(item.piece.grid), std::sqrt(item.piece.per_exit));
+      for (Segment& still : item.after) jerk_->push_still(std::move(still));
+    } else {
+      hand_out(std::move(segment));
+      for (Segment& still : item.after) hand_out(std::move(still));
+    }
     window_.pop_front();
     b_ = ride.b_end;
     if (!window_.empty())
       b_ = std::min(b_ * window_.front().piece.per_exit,
                     std::min(window_.front().piece.entry, window_.front().stop.front()));
   }
+  drain_jerk_stage();
+}
+
+void Chain::drain_jerk_stage() {
+  if (!jerk_) return;
+  for (Segment& segment : jerk_->take()) hand_out(std::move(segment));
 }
 
 void Chain::hand_out(Segment segment) {

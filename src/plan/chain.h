@@ -4,6 +4,7 @@
 
 #include <deque>
 
+#include "plan/jerk.h"
 #include "plan/speed.h"
 
 namespace aircut::plan {
@@ -19,7 +20,7 @@ struct Piece {
 class Chain {
  public:
   /// The window is emitted piecewise when it holds more than this many nodes.
-  explicit Chain(std::size_t max_nodes) : max_nodes_(max_nodes) {}
+  Chain(std::size_t max_nodes, const JointLimits& limits, double period);
 
   void push(Piece piece);
   /// A segment that takes no way: it comes out after the piece before it. One that takes time needs
@@ -41,6 +42,7 @@ class Chain {
   void brake_all();
   void emit(std::size_t count);
   void hand_out(Segment segment);
+  void drain_jerk_stage();
 
   std::size_t max_nodes_;
   std::deque<Item> window_;
@@ -48,6 +50,7 @@ class Chain {
   std::size_t next_try_ = 512;  ///< nodes at which it is worth looking for final pieces
   double b_ = 0;      ///< squared speed at the start of the window, in its first piece's s
   double clock_ = 0;  ///< program time, s
+  std::optional<JerkStage> jerk_;  ///< when a joint has a jerk limit
   std::deque<Segment> ready_;
 };
 

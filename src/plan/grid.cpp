@@ -202,6 +202,8 @@ tl::expected<Grid, GridFailure> GridMaker::make(bool identity, const JointVector
   }
   grid_.dq_start = first->joint.dq;
   grid_.dq_end = last->joint.dq;
+  grid_.ddq_start = first->joint.ddq;
+  grid_.ddq_end = last->joint.ddq;
   grid_.q_end = last->joint.q;
   add(*first);
   if (grid_.uniform)

@@ -8,9 +8,10 @@
 
 namespace aircut::plan {
 
-/// Limits of the joints, by JointId: mm/s, mm/s² or rad/s, rad/s².
+/// Limits of the joints, by JointId: mm/s, mm/s², mm/s³ or rad/s …; the jerk's may be infinite.
 struct JointLimits {
-  machine::JointVector v, a;
+  machine::JointVector v, a, j;
+  bool has_jerk() const { return !j.array().isInf().all(); }
 };
 
 /// What caps the speed at a node.
@@ -38,8 +39,9 @@ struct Grid {
   }
   const double* beta(std::size_t node) const { return alpha(node) + joints; }
 
-  machine::JointVector q_end;             ///< joints at the end of the piece
-  machine::JointVector dq_start, dq_end;  ///< q' at the ends
+  machine::JointVector q_end;               ///< joints at the end of the piece
+  machine::JointVector dq_start, dq_end;    ///< q' at the ends
+  machine::JointVector ddq_start, ddq_end;  ///< q''
 };
 
 /// The piece can't be carried out beyond `s`.

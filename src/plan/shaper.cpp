@@ -16,12 +16,15 @@
 #include <cmath>
 #include <limits>
 
+#include "plan/corner_load.h"
 #include "plan/reach.h"
 
 namespace aircut::plan {
 namespace {
 
 constexpr double jump_share = 8e-4;
+constexpr double kink_jerk_share = 5e-3;
+constexpr double bend_jerk_share = 0.6;
 constexpr double pass_angle = 1e-3;   // rad
 constexpr double blend_angle = 1e-7;  // rad: rounding of coordinates, not a corner
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -41,10 +44,11 @@ AxisValues end_direction(const Path& path) { return evaluate(path, length(path))
 
 JointLimits limits_of(const machine::Machine& machine) {
   const int n = machine.joint_count();
-  JointLimits out{machine::JointVector(n), machine::JointVector(n)};
+  JointLimits out{machine::JointVector(n), machine::JointVector(n), machine::JointVector(n)};
   for (int j = 0; j < n; ++j) {
     out.v[j] = machine.joint(machine::JointId{j}).vmax;
     out.a[j] = machine.joint(machine::JointId{j}).amax;
+    out.j[j] = machine.joint(machine::JointId{j}).jmax;
   }
   return out;
 }
@@ -56,31 +60,10 @@ Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, doub
     : machine_(machine),
       limits_(limits_of(machine)),
       period_(period),
-      chain_(max_nodes),
+      chain_(max_nodes, limits_, period),
       joints_(std::move(start)),
       scratch_(std::max(machine.tree().size(), static_cast<std::size_t>(machine.joint_count()) +
                                                    machine.kinematics().passive_names().size())) {}
-
-// Largest share of an acceleration limit on the blend at `feed` (infinity: at the largest speed
-// that the joints allow). 1 where that can't be told, so that the blend keeps its size.
-double Shaper::demand(const Blend& blend, double feed) const {
-  double worst = 0;
-  machine::JointVector near = joints_;
-  constexpr int samples = 8;
-  for (int k = 0; k <= samples; ++k) {
-    const PathPoint p = evaluate(blend, blend.length * k / samples);
-    const auto joint =
-        joint_point(machine_.kinematics(), {p.p, pending_->segment.tool_offset}, p.d, p.dd, near);
-    if (!joint) return 1;
-    near = joint->q;
-    const double tip = metric_length(Metric::xyz, p.d);
-    const double fastest = 1 / joint->dq.cwiseQuotient(limits_.v).cwiseAbs().maxCoeff();
-    const double speed = std::min(feed / tip, fastest);
-    worst =
-        std::max(worst, speed * speed * joint->ddq.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff());
-  }
-  return worst;
-}
 
 Shaper::Corner Shaper::corner_to(const Move& right) const {
   const Move& left = *pending_;
@@ -101,8 +84,16 @@ Shaper::Corner Shaper::corner_to(const Move& right) const {
     const double feed = std::min(left.feed, right.feed);
     const CornerShape shape{left.segment.path, right.segment.path, left_room,
                             length(right.segment.path) / 2, right.tolerance};
-    if (auto blend = make_blend(shape, [&](const Blend& b) { return demand(b, feed); }))
-      return *blend;
+    const auto load = [&](const Blend& blend) {
+      return load_of(machine_.kinematics(), blend, feed, left.segment.tool_offset, limits_,
+                     joints_);
+    };
+    if (auto corner = make_blend(shape, [&](const Blend& b) { return load(b).demand(); })) {
+      if (!limits_.has_jerk()) return *corner;
+      const double shorter = std::min(left_length, length(right.segment.path));
+      if (stop_is_faster(load(corner->blend), corner->blend, corner->cut, shorter)) return Rest{};
+      return *corner;
+    }
   }
   if (angle <= pass_angle) return Pass{};
   return Rest{};
@@ -257,6 +248,20 @@ void Shaper::add(Segment segment, Metric metric, double feed) {
   chain_.push_still(std::move(segment));
 }
 
+// Squared speed at which a joint can take the jumps of its direction and curvature: by differences
+// over the period T they count as jerks |Δq'| v / T² and 3/4 |Δq''| v² / T.
+double Shaper::jerk_entry(const Grid& grid, double scale) const {
+  double least = infinity;
+  for (Eigen::Index j = 0; j < limits_.j.size(); ++j) {
+    if (std::isinf(limits_.j[j])) continue;
+    const double kink = std::abs(grid.dq_start[j] - dq_end_[j] / scale);
+    const double bend = std::abs(grid.ddq_start[j] - ddq_end_[j] / (scale * scale));
+    const double v = kink_jerk_share * limits_.j[j] * period_ * period_ / kink;
+    least = std::min({least, v * v, bend_jerk_share * limits_.j[j] * period_ / bend});
+  }
+  return least;
+}
+
 void Shaper::append(Segment segment, Grid grid) {
   const AxisValues d = start_direction(segment.path);
   Piece piece;
@@ -266,12 +271,15 @@ void Shaper::append(Segment segment, Grid grid) {
     const machine::JointVector jump =
         (grid.dq_start - dq_end_ / scale).cwiseQuotient(limits_.a) / (jump_share * period_);
     const double fastest = 1 / jump.cwiseAbs().maxCoeff();
-    piece.entry = std::min(fastest * fastest, grid.cap.front());
+    piece.entry = std::min({fastest * fastest, grid.cap.front(), jerk_entry(grid, scale)});
+    // So slow that standing still for a moment costs nothing.
+    if (piece.entry < 1e-6 * grid.cap.front()) piece.entry = 0;
   }
   at_rest_ = false;
   joints_ = grid.q_end;
   d_end_ = end_direction(segment.path);
   dq_end_ = grid.dq_end;
+  ddq_end_ = grid.ddq_end;
   piece.segment = std::move(segment);
   piece.grid = std::move(grid);
   chain_.push(std::move(piece));

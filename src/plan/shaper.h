@@ -45,7 +45,7 @@ class Shaper {
   using Corner = std::variant<Rest, Pass, CornerBlend>;
 
   Corner corner_to(const Move& right) const;
-  double demand(const Blend& blend, double feed) const;
+  double jerk_entry(const Grid& grid, double scale) const;
   void finish_pending();
   void add_blend(const Move& left, const Move& right, const CornerBlend& corner);
   void add_range(Move& move, double begin, double end);
@@ -56,13 +56,13 @@ class Shaper {
   JointLimits limits_;
   double period_;
   Chain chain_;
-  std::optional<Move> pending_;  ///< its end is not final
-  double begin_ = 0, end_ = 0;   ///< what is left of the pending move, along its s
-  std::vector<Segment> after_;   ///< stand-still segments behind the pending move
-  bool at_rest_ = true;          ///< the next piece starts from rest
-  machine::JointVector joints_;  ///< at the end of what went into the chain
-  machine::JointVector dq_end_;  ///< q' at the end of the last piece
-  AxisValues d_end_;             ///< tip's derivative there
+  std::optional<Move> pending_;            ///< its end is not final
+  double begin_ = 0, end_ = 0;             ///< what is left of the pending move, along its s
+  std::vector<Segment> after_;             ///< stand-still segments behind the pending move
+  bool at_rest_ = true;                    ///< the next piece starts from rest
+  machine::JointVector joints_;            ///< at the end of what went into the chain
+  machine::JointVector dq_end_, ddq_end_;  ///< q' and q'' at the end of the last piece
+  AxisValues d_end_;                       ///< tip's derivative there
   bool failed_ = false;
   std::vector<double> scratch_;
 };

@@ -32,7 +32,9 @@ void expect_good(const Case& c, const std::string& name) {
   EXPECT_LE(v.share, 1.001) << name << ": " << v.where;
   EXPECT_LE(a.share, 1.001) << name << ": " << a.where;
   EXPECT_LE(f.share, 1.001) << name << ": " << f.where;
-  EXPECT_GT(std::max({v.share, a.share, f.share}), c.busy) << name << " crawls";
+  const Worst j = worst_jerk(log);
+  EXPECT_LE(j.share, 1.001) << name << ": " << j.where;
+  EXPECT_GT(std::max({v.share, a.share, f.share, j.share}), c.busy) << name << " crawls";
   const Worst d = worst_derivative(log);
   EXPECT_LE(d.share, 1.01) << name << ": " << d.where;
   const Worst path =
@@ -111,6 +113,38 @@ TEST(JointLog, KeepsLimitsFeedAndPathOfRandomProgramsOnAnOxGlide) {
   }
 }
 
+std::shared_ptr<machine::Machine> with_jerk(std::shared_ptr<machine::Machine> machine,
+                                            double seconds) {
+  for (const int j : machine->driven_) {
+    machine::Joint& joint = machine->tree_[static_cast<std::size_t>(j)];
+    joint.jmax = joint.amax / seconds;
+  }
+  return machine;
+}
+
+TEST(JointLog, KeepsTheJerkLimitOfRandomProgramsOnAMill) {
+  const char* many = std::getenv("AIRCUT_TEST_PROGRAMS");
+  const int programs = many ? std::atoi(many) : 4;
+  for (int i = 0; i < programs; ++i) {
+    std::mt19937 random(200 + static_cast<unsigned>(i));
+    const double seconds = std::array{0.05, 0.02, 0.2}[random() % 3];
+    Case c{with_jerk(mill(), seconds), {}, {}, 0, false};
+    add_random_program(c, random, i, i % 3 == 0 ? 2 : 25, Vec3::Zero());
+    expect_good(c, "mill program with jerk " + std::to_string(i));
+  }
+}
+
+TEST(JointLog, KeepsTheJerkLimitOfRandomProgramsOnAnOxGlide) {
+  const char* many = std::getenv("AIRCUT_TEST_PROGRAMS");
+  const int programs = many ? std::atoi(many) : 2;
+  for (int i = 0; i < programs; ++i) {
+    std::mt19937 random(300 + static_cast<unsigned>(i));
+    Case c{with_jerk(ox_machine({60, 600}), 0.05), xyz(250, 0, -320), {}, 0, true};
+    add_random_program(c, random, i, i % 3 == 0 ? 4 : 20, Vec3(250, 0, -320));
+    expect_good(c, "O-X program with jerk " + std::to_string(i));
+  }
+}
+
 TEST(JointLog, KeepsLimitsWithTinyMovesAndTolerances) {
   const char* many = std::getenv("AIRCUT_TEST_PROGRAMS");  // for a long search
   const int programs = many ? std::atoi(many) : 12;
@@ -118,7 +152,9 @@ TEST(JointLog, KeepsLimitsWithTinyMovesAndTolerances) {
     std::mt19937 random(100 + static_cast<unsigned>(i));
     std::uniform_real_distribution<double> uniform(-1, 1);
     const bool ox = i % 2 == 1;
-    Case c{ox ? ox_machine({60, 600}) : mill(), ox ? xyz(250, 0, -320) : AxisValues{}, {}, 0, ox};
+    auto machine = ox ? ox_machine({60, 600}) : mill();
+    if (i % 4 >= 2) machine = with_jerk(machine, 0.04);
+    Case c{machine, ox ? xyz(250, 0, -320) : AxisValues{}, {}, 0, ox};
     const double step = std::pow(10.0, -1.5 + 2.5 * uniform(random));  // 1e-4 … 10 mm
     const double p = std::pow(10.0, -3 + 3 * uniform(random));         // 1e-6 … 1 mm
     const double q = i % 3 == 0 ? p / 2 : 0;

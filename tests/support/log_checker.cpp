@@ -164,6 +164,7 @@ JointLog read_log(const std::string& text) {
     log.joint_names.push_back(joint.substr(0, joint.find(':')));
   log.v_max = numbers(log.header["limits_v"]);
   log.a_max = numbers(log.header["limits_a"]);
+  log.j_max = numbers(log.header["limits_j"]);
   log.period = std::strtod(log.header["servo_period_s"].c_str(), nullptr);
   log.end_time = std::strtod(log.header["end_time_s"].c_str(), nullptr);
   if (!log.problems.empty() || log.rows.empty()) return log;
@@ -205,6 +206,26 @@ Worst worst_acceleration(const JointLog& log) {
     for (std::size_t k = 1; k + 1 < n + 8; ++k)
       note(worst, log, std::clamp<std::size_t>(k, 4, n + 3) - 4, "acceleration",
            std::abs(at(k + 1) - 2 * at(k) + at(k - 1)) / (log.period * log.period) / log.a_max[j]);
+  }
+  return worst;
+}
+
+Worst worst_jerk(const JointLog& log) {
+  Worst worst;
+  const std::size_t n = log.rows.size();
+  const double t3 = log.period * log.period * log.period;
+  for (std::size_t j = 0; j < log.joints(); ++j) {
+    const std::size_t q = log.column("q" + std::to_string(j));
+    const auto at = [&](std::size_t padded) {
+      return log.rows[std::clamp<std::size_t>(padded, 4, n + 3) - 4][q];
+    };
+    // Positions are doubles: their rounding alone counts as 8 units in the last place per T³.
+    for (std::size_t k = 0; k + 3 < n + 8; ++k) {
+      const double rounding = 8 * 2.3e-16 * std::abs(at(k));
+      const double jerk = std::abs(at(k + 3) - 3 * at(k + 2) + 3 * at(k + 1) - at(k));
+      note(worst, log, std::clamp<std::size_t>(k, 4, n + 3) - 4, "jerk",
+           std::max(jerk - rounding, 0.0) / t3 / log.j_max[j]);
+    }
   }
   return worst;
 }

@@ -15,7 +15,7 @@ struct JointLog {
   std::vector<std::string> columns;
   std::vector<std::vector<double>> rows;
   std::vector<std::string> joint_names;
-  std::vector<double> v_max, a_max;
+  std::vector<double> v_max, a_max, j_max;
   double period = 0;
   double end_time = 0;
   std::vector<std::string> problems;  ///< of the form; empty when the text is a good log
@@ -36,6 +36,7 @@ struct Worst {
 };
 Worst worst_velocity(const JointLog& log);
 Worst worst_acceleration(const JointLog& log);
+Worst worst_jerk(const JointLog& log);
 /// Tip speed (of XYZ, else ABC) over feed_cmd, between samples of feed moves.
 Worst worst_feed(const JointLog& log);
 /// Largest distance (mm) between what the v column says and the positions, beyond what the

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <initializer_list>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -18,6 +19,7 @@ inline constexpr double rad = std::numbers::pi / 180;
 
 struct JointLimit {
   double v, a;  ///< mm or degrees for rotary joints
+  double j = std::numeric_limits<double>::infinity();
 };
 
 inline void add_joint(machine::Machine& m, const std::string& name, bool rotary, JointLimit limit) {
@@ -26,6 +28,7 @@ inline void add_joint(machine::Machine& m, const std::string& name, bool rotary,
   joint.kind = rotary ? machine::JointKind::rotary : machine::JointKind::linear;
   joint.vmax = limit.v * (rotary ? rad : 1);
   joint.amax = limit.a * (rotary ? rad : 1);
+  joint.jmax = limit.j * (rotary ? rad : 1);
   joint.driven = static_cast<int>(m.driven_.size());
   m.driven_.push_back(static_cast<int>(m.tree_.size()));
   joint.child = machine::LinkId{static_cast<int>(m.links_.size())};
