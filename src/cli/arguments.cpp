@@ -33,8 +33,10 @@ void add_program(CLI::App* app, ProgramArguments& a, std::vector<std::string>& s
   app->add_option("--sub-path", a.sub_path, "folder of called subs (repeatable)")->type_name("DIR");
   app->add_option("--dialect", a.dialect,
                   "whose control the program is for (default: the machine's)")
-      ->check(CLI::IsMember({"linuxcnc", "fanuc", "haas"}).description(""))
-      ->type_name("linuxcnc|fanuc|haas");
+      ->check(CLI::IsMember({"linuxcnc", "fanuc", "haas", "auto"}).description(""))
+      ->type_name("linuxcnc|fanuc|haas|auto");
+  app->add_flag("--whole-units", a.whole_units,
+                "Fanuc and Haas: numbers without a decimal point are mm or in, not increments");
   app->add_flag("--lathe", a.lathe,
                 "Fanuc and Haas: a turning centre (default: when the machine has no Y)");
   app->add_flag("--block-delete", a.block_delete, "skip blocks that begin with /");

@@ -21,8 +21,9 @@ struct ProgramArguments {
   std::string tools, setup, parameters;
   std::vector<std::pair<std::string, double>> set;
   std::vector<std::string> sub_path;
-  std::string dialect;  ///< linuxcnc, fanuc, haas; empty: the machine's
-  bool lathe = false;   ///< --lathe: G-code system A
+  std::string dialect;  ///< linuxcnc, fanuc, haas, auto; empty: the machine's
+  bool whole_units = false;
+  bool lathe = false;  ///< --lathe: G-code system A
   bool block_delete = false, optional_stop = false;
   std::optional<unsigned long long> max_blocks;
 };

@@ -143,11 +143,15 @@ interp::Options interpreter_options(const Job& job, const ProgramArguments& argu
     options.axes = job.machine->kinematics().axes();
     if (const auto tip = job.machine->kinematics().forward(job.start, {})) options.start = *tip;
   }
-  const std::string& dialect = !arguments.dialect.empty() ? arguments.dialect
-                               : job.machine              ? job.machine->dialect()
-                                                          : arguments.dialect;
+  const bool automatic = arguments.dialect == "auto";
+  const bool named = !arguments.dialect.empty() && !automatic;
+  const std::string dialect = named         ? arguments.dialect
+                              : job.machine ? job.machine->dialect()
+                                            : std::string();
   if (dialect == "fanuc") options.dialect = interp::Dialect::fanuc;
   if (dialect == "haas") options.dialect = interp::Dialect::haas;
+  if (automatic) interp::choose_dialect(options, program.content());
+  options.whole_units = arguments.whole_units;
   options.lathe = arguments.lathe || (job.machine && !options.axes.has(Axis::y));
   options.block_delete = arguments.block_delete;
   options.optional_stop = arguments.optional_stop;

@@ -73,6 +73,10 @@ const std::vector<KindText>& error_kinds() {
        "or "
        "say that the control reads whole units (--whole-units). Only the first 20 words are told. "
        "Example: `G0 X10`."},
+      {"dialect_chosen", "which dialect was chosen, and why",
+       "Info. With --dialect auto the program's text decides whose control reads it. Name the "
+       "dialect "
+       "when the choice is wrong. Example: a program with GOTO is read as Fanuc's."},
       {"duplicate_word", "a letter twice on a line",
        "Each letter but G and M may stand once. Example: `G0 X1 X2`."},
       {"dwell_time", "a dwell of less than no time",

@@ -198,8 +198,8 @@ bool Machine::step(const Instruction& at) {
   if (is_macro(at.op)) return macro(at);
   const bool is_parameter = at.op > Op::read && at.op <= Op::exists_named;
   const bool is_binary = (at.op >= Op::power && at.op <= Op::xor_) || at.op == Op::atan;
-  const bool ok = is_parameter ? parameter(at) : is_binary ? binary(at) : unary(at);
-  if (!ok) return false;
+  if (is_parameter) return parameter(at);  // may be vacant
+  if (!(is_binary ? binary(at) : unary(at))) return false;
   return std::isfinite(top()) || fail(at, not_finite);
 }
 

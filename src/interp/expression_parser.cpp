@@ -66,7 +66,7 @@ bool LineParser::value(Value& out) {
         return fail_from("bad_number", begin, "the number is too large; keep it below 1e308");
       if (in_.peek() == '.')
         return fail_here("bad_number", "a second decimal point; a number has at most one");
-      if (in_.peek() == ',')
+      if (in_.peek() == ',' && !table_.dialect().macro_b)
         return fail_here("bad_number",
                          "a comma inside a number; decimals are written with a point");
       if (negative) out.number = -out.number;

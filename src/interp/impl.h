@@ -206,6 +206,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void report(const char* kind, Place place, std::string message);
   void warn(const Fault& fault);
   void inform(const Fault& fault);
+  const char* dialect_advice(const SourceSpan& at) const;
   bool is_cascade(const Fault& fault) const;
   void run_block(BlockRun& run, Block& block);
   void remember_failure(const Block& block);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "canon/canon.h"
@@ -37,8 +38,18 @@ struct Limits {
   int max_depth = 0;                           ///< nested calls; 0: as many as the control takes
 };
 
+/// What a text has that only one family of controls reads.
+struct DialectGuess {
+  std::optional<Dialect> dialect;  ///< nothing: any control could read it
+  std::uint32_t line = 0;          ///< of the first sign
+  const char* what = nullptr;      ///< "GOTO", "a named parameter (#<…>)"
+};
+DialectGuess guess_dialect(std::string_view text);
+
 struct Options {
   Dialect dialect = Dialect::linuxcnc;
+  std::string
+      dialect_reason;        ///< why it was chosen (choose_dialect); told as an info when not empty
   bool whole_units = false;  ///< Fanuc, Haas: X1 is X1. and not 0.001 mm
   bool lathe = false;  ///< Fanuc, Haas: G-code system A of turning centres, else machining centres
   canon::Unit machine_unit = canon::Unit::millimetre;  ///< of tool table, var file, #5xxx
@@ -59,6 +70,10 @@ struct Options {
   double g83_clearance = 0;                         ///< mm; 0: the same
   Limits limits;
 };
+
+/// Sets `dialect` from what the text has (`--dialect auto`), and `dialect_reason`. A text without a
+/// sign leaves the dialect as it is.
+void choose_dialect(Options& options, std::string_view text);
 
 /// What the run says back after a probing move.
 struct ProbeHit {

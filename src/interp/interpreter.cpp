@@ -5,9 +5,11 @@
 #include "base/text.h"
 #include "interp/codes/codes.h"
 #include "interp/dialect.h"
+#include "interp/dialect_guess.h"
 #include "interp/impl.h"
 #include "interp/interp.h"
 #include "interp/lexer.h"
+#include "interp/macro_expression.h"
 
 namespace aircut::interp {
 namespace {
@@ -383,6 +385,10 @@ ParameterFile Interpreter::Impl::parameters() const {
   keep(number::g92_applied, 11);
   for (int system = 0; system < 9; ++system) keep(number::first_system + 20 * system, 10);
   for (const int n : kept_numbers_) file.values[n] = parameters_.stored(n);
+  if (table_.dialect().macro_b) {
+    for (int n = 500; n < Parameters::first_system; ++n) file.values[n] = parameters_.stored(n);
+    std::erase_if(file.values, [](const auto& entry) { return is_vacant(entry.second); });
+  }
   return file;
 }
 
@@ -413,12 +419,27 @@ void Interpreter::Impl::report(const Fault& fault) {
   if (is_cascade(fault)) return;
   const SourceSpan at = span_of(fault.place);
   if (!reported_.emplace(at.text, at.begin, fault.kind).second) return;
-  diagnostics_.error(fault.kind, at, fault.message);
+  Diagnostic diagnostic = make_error(fault.kind, at, fault.message);
+  if (const char* advice = dialect_advice(at)) diagnostic.notes.push_back({"help", advice});
+  diagnostics_.add(std::move(diagnostic));
   if (reported_.size() == max_reported) {
     diagnostics_.error("limit_reached", at, "more than 10000 messages; the rest is not reported");
     statistics_.limit_reached = true;
     stop();
   }
+}
+
+// Help for a program that was written for another control.
+const char* Interpreter::Impl::dialect_advice(const SourceSpan& at) const {
+  const bool macro_b = table_.dialect().macro_b;
+  const DialectSign sign = sign_of(at.line_text(), at.line <= 2);
+  if (!sign.what) return nullptr;
+  if (!macro_b && sign.dialect != Dialect::linuxcnc)
+    return sign.dialect == Dialect::haas ? "this looks like a Haas program; try --dialect haas"
+                                         : "this looks like a Fanuc program; try --dialect fanuc";
+  if (macro_b && sign.dialect == Dialect::linuxcnc)
+    return "this looks like a LinuxCNC program; try --dialect linuxcnc";
+  return nullptr;
 }
 
 void Interpreter::Impl::report(const char* kind, Place place, std::string message) {

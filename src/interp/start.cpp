@@ -59,6 +59,12 @@ void Interpreter::Impl::start(const ParameterFile& file) {
   }
   state_.tip = options_.start;
   parameters_.commit();
+  if (!options_.dialect_reason.empty()) {
+    SourceSpan at;
+    at.text = frames_.back().file->text;
+    at.line = 1;
+    diagnostics_.add({Severity::info, "dialect_chosen", options_.dialect_reason, at});
+  }
   if (!text_is_readable()) return stop();
   emit_start_state();
 }

@@ -1,5 +1,6 @@
-// Programs from outside: any bytes, with small limits. What comes out must be finite numbers, and
-// come to an end. Called files resolve to the same bytes.
+// Programs from outside: any bytes, with small limits. A first byte below 4 chooses the dialect.
+// What comes out must be finite numbers, and come to an end. Called files resolve to the same
+// bytes.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +20,9 @@ void expect_finite(const aircut::AxisValues& values) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace aircut;
   SourceMap sources;
-  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  const int choice = size > 0 && data[0] < 4 ? data[0] : 0;
+  const std::size_t skipped = size > 0 && data[0] < 4 ? 1 : 0;
+  const std::string bytes(reinterpret_cast<const char*>(data) + skipped, size - skipped);
   const SourceText& text = sources.add("input.ngc", bytes);
   tool::ToolTable tools;
   for (int number = 1; number <= 3; ++number) {
@@ -31,6 +34,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     tools.tools.push_back(tool);
   }
   interp::Options options;
+  if (choice == 1 || choice == 3) options.dialect = interp::Dialect::fanuc;
+  if (choice == 2) options.dialect = interp::Dialect::haas;
+  options.lathe = choice == 3;
+  static_cast<void>(interp::guess_dialect(bytes));
   options.limits.max_blocks = 2000;
   options.limits.max_idle_blocks = 1000;
   options.limits.max_repeat = 100;

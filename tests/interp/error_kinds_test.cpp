@@ -37,6 +37,8 @@ TEST(ErrorKinds, EachHasAProgramThatProvokesIt) {
     const std::string text = read(path);
     if (text.find("(! dialect fanuc)") != std::string::npos)
       setting.options.dialect = interp::Dialect::fanuc;
+    if (text.find("(! dialect auto)") != std::string::npos)
+      interp::choose_dialect(setting.options, text);
     const Ran ran = run_program(sources, text, setting);
     const auto& list = ran.diagnostics.list();
     const auto hit = std::find_if(list.begin(), list.end(),

@@ -62,6 +62,7 @@ void read_setting(ProgramFile& program, const std::string& setting) {
     program.options.start_unit = unit();
   } else if (key == "dialect") {
     program.options.dialect = rest == "haas" ? interp::Dialect::haas : interp::Dialect::fanuc;
+    if (rest == "auto") interp::choose_dialect(program.options, program.text);
     program.options.machine_unit = canon::Unit::millimetre;
   } else if (key == "lathe") {
     program.options.lathe = true;

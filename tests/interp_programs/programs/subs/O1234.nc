@@ -1,0 +1,5 @@
+%
+O1234 (SUB IN A FILE)
+G91 G0 Y1.
+G90 M99
+%
