@@ -220,6 +220,7 @@ std::string Interpreter::Impl::tested_values(const Frame& frame, const FlowEntry
   const std::string_view text = frame.file->text->content();
   std::string_view line = text.substr(place.begin, place.after - place.begin);
   while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
+  block.clear();
   if (parse_line(line, parameters_, table_, block)) return {};
   if (only != Keyword::none && block.oword.keyword != only) return {};
   std::vector<std::string> seen;

@@ -65,7 +65,8 @@ void Interpreter::Impl::enter_program(Block& block) {
   if (frame.header_seen) return end_of_file();
   frame.header_seen = true;
   frame.program = static_cast<std::int64_t>(parse_number(block.oword.label).value_or(0));
-  if (!block.words.empty() || block.comment) execute_words(block);
+  if (!block.words.empty() || block.comment)
+    execute_words(block.has_expressions ? without_vacant(block) : block);
 }
 
 void Interpreter::Impl::enter_do(Block& block, int at) {
