@@ -2,7 +2,9 @@
 // joint travels in an interval. Units mm, rad, s.
 #pragma once
 
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "machine/machine.h"
@@ -49,5 +51,40 @@ class JointMotion {
   /// at the start say nothing about the turn or branch at the end.
   std::vector<JointVector> anchors_;
 };
+
+/// Signed joint value over time within one motion: value(t) = sign · q_joint(t). Borrows the
+/// motion.
+class JointTrack {
+ public:
+  JointTrack(const JointMotion& motion, machine::JointId joint, double sign);
+  /// Nothing where the machine can't reach.
+  std::optional<double> value(double t) const;
+  /// Upper bound of the joint's way in [ta, tb]; nothing when no bound is known.
+  std::optional<double> travel(double ta, double tb);
+
+ private:
+  const JointMotion& motion_;
+  int joint_;
+  double sign_;
+  std::vector<double> travel_;
+};
+
+struct Extreme {
+  double t = 0;
+  double value = 0;  ///< of a JointTrack
+};
+
+/// Largest value over [ta, tb] to `accuracy`, if it is above that of `best`, which it replaces;
+/// false when it can't be known.
+bool search_maximum(JointTrack& track, double ta, double tb, double accuracy, Extreme& best);
+/// Earliest time in [ta, tb] with a value above `limit` (to a nanosecond), if there is one.
+std::optional<double> first_above(JointTrack& track, double ta, double tb, double limit);
+
+/// How a joint that passes its limit is told.
+struct LimitText {
+  std::string message, remedy;
+};
+/// `worst` = sign · q; sign +1 for the upper limit, −1 for the lower one.
+LimitText text_of_passed_limit(const machine::Joint& joint, double sign, double worst);
 
 }  // namespace aircut::motion

@@ -99,6 +99,20 @@ Expected<Arc> make_arc(const AxisValues& start, const canon::ArcFeed& command) {
   return arc;
 }
 
+Expected<Path> path_of(const AxisValues& start, const canon::Action& action) {
+  if (std::holds_alternative<canon::SplineFeed>(action))
+    return unexpected(make_error("unsupported_code", "there is no model for a spline (G5.2)"));
+  if (const auto* arc = std::get_if<canon::ArcFeed>(&action); arc && arc->turns != 0) {
+    auto made = make_arc(start, *arc);
+    if (!made) return unexpected(made.error());
+    return Path(std::move(*made));
+  }
+  if (!canon::is_motion(action)) return Path(Hold{start});
+  if (const auto* sync = std::get_if<canon::SyncFeed>(&action))
+    return Path(make_line(start, sync->end));  // a rigid tap comes back the same way
+  return Path(make_line(start, canon::end_of(action, start)));
+}
+
 Path sub_path(const Path& path, double s0, double s1) {
   return std::visit(
       overloaded{

@@ -63,6 +63,10 @@ PathPoint evaluate(const Path& path, double s);
 /// Box of the positions for s in [s0, s1] and the way of each axis; exact or larger.
 machine::TipInterval bounds(const Path& path, double s0, double s1);
 
+/// The path of a command from where the tip is, as it is programmed; a Hold for one that does not
+/// move. Errors: an arc without a radius; a spline (kind `unsupported_code`).
+Expected<Path> path_of(const AxisValues& start, const canon::Action& action);
+
 /// Speed of the tip along the feed metric (XYZ, else UVW, else ABC) per path speed; 1 but for
 /// blends and spirals.
 double metric_speed(const Path& path, const PathPoint& point);

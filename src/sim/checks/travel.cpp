@@ -1,10 +1,8 @@
 // Joint over-travel at any time of a move, proven, not sampled.
 //
-// q(t) differs from q(m), m the middle of an interval, by at most half-interval travel; so
-//   max q over the interval ≤ q(m) + travel(interval).
-// If that bound stays inside the range the interval is clear; else it is halved, down to the
-// resolution. The same search finds the first time outside, the worst time, and the extremes that
-// the report prints.
+// The search (motion::search_maximum) bounds a joint over an interval and halves the interval until
+// it is clear or out. The same search finds the first time outside, the worst time, and the
+// extremes that the report prints.
 
 #include <algorithm>
 #include <array>
@@ -14,74 +12,15 @@
 
 namespace aircut::sim {
 
+using motion::Extreme;
+using motion::first_above;
+using motion::JointTrack;
+using motion::search_maximum;
+
 namespace {
 
-constexpr double resolution = 1e-6;         // mm or rad: a joint may pass its limit by this much
-constexpr double extreme_accuracy = 0.01;   // mm or rad·(π/180): of the reported extremes
-constexpr double shortest_interval = 1e-9;  // s
-
-struct Extreme {
-  double t = 0;
-  double value = 0;  // sign · q
-};
-
-// Signed joint value over time within one step: value(t) = sign · q_joint(t).
-class JointTrack {
- public:
-  JointTrack(const motion::JointMotion& motion, machine::JointId joint, double sign)
-      : motion_(motion),
-        joint_(index(joint)),
-        sign_(sign),
-        travel_(motion.machine().tree().size()) {}
-
-  std::optional<double> value(double t) const {
-    const auto q = motion_.at(t);
-    if (!q) return std::nullopt;
-    return sign_ * (*q)[joint_];
-  }
-  std::optional<double> travel(double ta, double tb) {
-    if (!motion_.travel_bound(ta, tb, travel_)) return std::nullopt;
-    return travel_[static_cast<std::size_t>(joint_)];
-  }
-
- private:
-  const motion::JointMotion& motion_;
-  int joint_;
-  double sign_;
-  std::vector<double> travel_;
-};
-
-// Largest value over [ta, tb] to `accuracy`, if it is above `floor`; false when it can't be known.
-bool search_maximum(JointTrack& track, double ta, double tb, double accuracy, Extreme& best) {
-  const double tm = 0.5 * (ta + tb);
-  const auto value = track.value(tm);
-  const auto travel = track.travel(ta, tb);
-  const bool smallest = tb - ta <= shortest_interval || !(ta < tm && tm < tb);
-  if (!value) return false;
-  if (*value > best.value) best = {tm, *value};
-  if (!travel) {
-    if (smallest) return false;
-    return search_maximum(track, ta, tm, accuracy, best) &&
-           search_maximum(track, tm, tb, accuracy, best);
-  }
-  if (*value + *travel <= best.value + accuracy || smallest) return true;
-  return search_maximum(track, ta, tm, accuracy, best) &&
-         search_maximum(track, tm, tb, accuracy, best);
-}
-
-// Earliest time in [ta, tb] with a value above `limit` (to the shortest interval), if there is one.
-std::optional<double> first_above(JointTrack& track, double ta, double tb, double limit) {
-  const double tm = 0.5 * (ta + tb);
-  const auto value = track.value(tm);
-  const auto travel = track.travel(ta, tb);
-  if (value && travel && *value + *travel <= limit) return std::nullopt;
-  if (tb - ta <= shortest_interval || !(ta < tm && tm < tb))
-    return value && *value > limit ? std::optional(ta) : std::nullopt;
-  if (const auto left = first_above(track, ta, tm, limit)) return left;
-  return first_above(track, tm, tb, limit);
-}
-
-double to_user(double value, bool rotary) { return rotary ? value * 180 / M_PI : value; }
+constexpr double resolution = 1e-6;        // mm or rad: a joint may pass its limit by this much
+constexpr double extreme_accuracy = 0.01;  // mm or rad·(π/180): of the reported extremes
 
 class TravelCheck final : public Check {
  public:
@@ -181,18 +120,14 @@ class TravelCheck final : public Check {
       f.t_end = last_above(track, worst.t, t1, signed_limit);
     f.u_first = fraction_at(step, f.t_first);
     f.u_end = fraction_at(step, f.t_end);
-    const bool rotary = joint.kind == machine::JointKind::rotary;
+    const double scale = joint.kind == machine::JointKind::rotary ? 180 / M_PI : 1;
     f.joint = joint.name;
-    f.unit = rotary ? "deg" : "mm";
-    f.value = to_user(sign * worst.value, rotary);
-    f.limit = to_user(limit, rotary);
-    const double excess = std::abs(*f.value - *f.limit);
-    const std::string unit = rotary ? "°" : " mm";
-    f.message = "joint " + joint.name + " passes its " + (sign > 0 ? "upper" : "lower") +
-                " limit by " + fixed(excess, 3) + unit + ": it reaches " + fixed(*f.value, 3) +
-                unit + ", the limit is " + fixed(*f.limit, 3) + unit;
-    f.remedy = std::string("move the work, the work offset or the start so that ") + joint.name +
-               " stays " + (sign > 0 ? "at or below " : "at or above ") + fixed(*f.limit, 3) + unit;
+    f.unit = joint.kind == machine::JointKind::rotary ? "deg" : "mm";
+    f.value = sign * worst.value * scale;
+    f.limit = limit * scale;
+    const motion::LimitText text = motion::text_of_passed_limit(joint, sign, worst.value);
+    f.message = text.message;
+    f.remedy = text.remedy;
     out.add(f);
   }
 
