@@ -111,6 +111,7 @@ struct G92Offset {
 /// Added to the tip to give the controlled point.
 struct ToolLengthOffset {
   AxisValues offset;
+  int tool = 0;  ///< whose length it is (G43 H); 0: not a tool's, given as numbers or none
 };
 struct SetPathMode {
   PathMode mode = PathMode::continuous;

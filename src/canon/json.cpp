@@ -175,7 +175,10 @@ struct Fields {
     o.number("angle_deg", c.angle * degrees_per_radian);
   }
   void operator()(const G92Offset& c) const { motion("g92_offset", c.offset); }
-  void operator()(const ToolLengthOffset& c) const { motion("tool_offset", c.offset); }
+  void operator()(const ToolLengthOffset& c) const {
+    motion("tool_offset", c.offset);
+    if (c.tool != 0) o.integer("tool", c.tool);
+  }
   void operator()(const SetPathMode& c) const {
     name("path");
     o.text("mode", word(c.mode, path_words));

@@ -8,6 +8,7 @@
 #include "cli/exit_code.h"
 #include "cli/job.h"
 #include "cli/print_report.h"
+#include "semantics/semantics.h"
 
 namespace aircut::cli {
 
@@ -17,20 +18,45 @@ namespace {
 // counted.
 constexpr std::size_t most_messages = 100'000;
 
-// Reads a program to its end; moves nothing. What it says is added to `diagnostics`.
+// Reads a program to its end; moves nothing. What it says is added to `diagnostics`; sets
+// `refused` when the control would refuse a block.
 report::Unit check_program(const Job& job, const ProgramArguments& arguments,
-                           const SourceText& program, SourceMap& sources,
-                           Diagnostics& diagnostics) {
+                           const SourceText& program, SourceMap& sources, Diagnostics& diagnostics,
+                           bool& refused) {
   report::Unit unit;
   interp::Interpreter interpreter(program, job.tools, job.parameters,
                                   interpreter_options(job, arguments, program), sub_reader(sources),
                                   diagnostics);
+  const auto parameters = interpreter.parameters();
+  semantics::ProgramCheck meaning({job.tools, job.machine.get()}, diagnostics, diagnostics);
+  std::optional<semantics::TravelCheck> travel;
+  if (job.machine) travel.emplace(*job.machine, job.start, diagnostics);
+  std::size_t own_errors = 0;
+  const auto errors_of = [&](const auto& look) {
+    const std::size_t before = diagnostics.errors();
+    look();
+    own_errors += diagnostics.errors() - before;
+  };
   while (const auto command = interpreter.next()) {
     if (canon::is_motion(command->action)) ++unit.moves;
+    errors_of([&] {
+      meaning.see(*command);
+      if (travel) travel->see(*command);
+    });
     if (const auto* probe = std::get_if<canon::Probe>(&command->action))
       interpreter.resume({.tip = probe->end, .tripped = false});
   }
+  errors_of([&] {
+    meaning.finish({.reached = interpreter.statistics().ended,
+                    .before = parameters.values,
+                    .after = interpreter.parameters().values});
+  });
+  refused = diagnostics.errors() > own_errors;
   unit.blocks = interpreter.statistics().blocks;
+  unit.unchecked = meaning.unchecked();
+  if (travel)
+    unit.unchecked.insert(unit.unchecked.end(), travel->unchecked().begin(),
+                          travel->unchecked().end());
   if (interpreter.statistics().limit_reached)
     unit.unchecked.push_back(program.name() + ": a limit on its length was reached");
   return unit;
@@ -54,7 +80,8 @@ int check_command(const CheckArguments& a) {
   report::RunReport report;
   report.version = AIRCUT_VERSION;
   report.inputs = job.inputs;
-  report.checks = {"syntax"};
+  report.checks = {"syntax", "semantics"};
+  if (job.machine) report.checks.push_back("limits of the programmed path");
   report.fail_on = a.output.fail_on;
   report.diagnostics = job.diagnostics.list();
   if (job.machine) report.machine = job.machine->name();
@@ -68,7 +95,8 @@ int check_command(const CheckArguments& a) {
     report::Unit unit;
     if (const auto program = open_program(*sources, path)) {
       report.inputs.push_back({"program", path, sha256((*program)->content())});
-      unit = check_program(job, a.program, **program, *sources, diagnostics);
+      unit =
+          check_program(job, a.program, **program, *sources, diagnostics, summary.program_refused);
     } else {
       if (a.output.quiet) print_error(program.error(), a.output.color);
       unit.unchecked.push_back(program.error().message);
@@ -81,7 +109,6 @@ int check_command(const CheckArguments& a) {
       unit.unchecked.push_back(path + ": " + std::to_string(more) +
                                " more messages were counted but not kept");
     summary.unchecked = unit.unchecked;
-    summary.program_refused = diagnostics.errors() > 0;
     unit.verdict = sim::judge({}, summary, diagnostics, a.output.fail_on);
     for (std::size_t i = 0; i < unit.count; ++i)
       report.diagnostics.push_back(diagnostics.list()[i]);

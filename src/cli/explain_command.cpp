@@ -5,6 +5,7 @@
 #include "cli/exit_code.h"
 #include "cli/job.h"
 #include "cli/print_report.h"
+#include "semantics/semantics.h"
 
 namespace aircut::cli {
 
@@ -46,6 +47,7 @@ std::vector<KindText> all_kinds() {
   };
   add(interp::error_kinds());
   add(sim::finding_kinds());
+  add(semantics::semantic_kinds());
   std::stable_sort(out.begin(), out.end(), [](const KindText& a, const KindText& b) {
     return std::string_view(a.kind) < std::string_view(b.kind);
   });

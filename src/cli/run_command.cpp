@@ -13,6 +13,7 @@
 #include "cli/job.h"
 #include "cli/print_report.h"
 #include "log/log.h"
+#include "semantics/semantics.h"
 
 namespace aircut::cli {
 
@@ -191,15 +192,25 @@ int run_command(const RunArguments& a) {
   options.stop_requested = [] { return stop_signal != 0; };
   options.progress = [&](double t, const SourceSpan& span) { progress.tell(t, span); };
   if (a.max_time) options.max_time = *a.max_time;
+  Diagnostics doubts;
+  semantics::ProgramCheck meaning({job.tools, job.machine.get(), true}, diagnostics, doubts);
+  const auto parameters = interpreter.parameters();
+  options.listen = [&](const canon::Command& command) { meaning.see(command); };
   sim::Simulator::Result result = sim::run(interpreter, diagnostics, planner, simulator, options);
   progress.clear();
+  meaning.finish({.reached = interpreter.statistics().ended,
+                  .before = parameters.values,
+                  .after = interpreter.parameters().values});
+  for (const Diagnostic& d : doubts.list()) diagnostics.add(d);
+  result.summary.unchecked.insert(result.summary.unchecked.end(), meaning.unchecked().begin(),
+                                  meaning.unchecked().end());
 
   report::RunReport report;
   report.version = AIRCUT_VERSION;
   report.fail_on = a.output.fail_on;
   report.machine = machine.name();
   report.inputs = job.inputs;
-  report.checks = {"syntax"};
+  report.checks = {"syntax", "semantics"};
   if (checks.limits) report.checks.push_back("limits");
   if (checks.collision) report.checks.push_back("collision");
   report.settings = {{"near_mm", a.near},

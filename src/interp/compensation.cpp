@@ -97,7 +97,11 @@ void Compensator::leave(BlockRun& run, const PlannedMove& planned) {
                      "the first move after radius compensation (G40) must be straight, not an arc");
   const double length =
       norm(point_of(state, planned.end) - point_of(state, state.programmed_tip()));
-  if (length < 2 * state.comp.radius)
+  if (planned.kind == PlannedMove::Kind::rapid)
+    run.warning("comp_rapid", run.whole(),
+                "radius compensation ends on a rapid, which runs obliquely off the contour; leave "
+                "it with G1, then retract");
+  else if (length < 2 * state.comp.radius)
     run.warning("comp_exit_short", run.whole(),
                 "the move that leaves radius compensation is shorter than the tool's diameter (" +
                     mm(2 * state.comp.radius) + "); it may cut into the contour");
@@ -131,6 +135,10 @@ void Compensator::move(BlockRun& run, const PlannedMove& planned) {
     auto path = entry_path(run, planned, from, to);
     if (!path) return;
     state.comp.entered = true;
+    if (planned.kind == PlannedMove::Kind::rapid)
+      run.warning("comp_rapid", run.whole(),
+                  "radius compensation begins on a rapid, which runs obliquely to the contour; "
+                  "begin it with G1");
     emit_path(run, planned, *path);
     return;
   }

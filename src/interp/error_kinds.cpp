@@ -65,9 +65,18 @@ const std::vector<KindText>& error_kinds() {
       {"contour_error", "a contour that a turning cycle can't cut",
        "G70, G71, G72 and G73 need a contour of G0 to G3 moves in X and Z that does not go back on "
        "its way. Example: `G71 Q100` with a sub o100 that goes to Z-10 and back to Z-5."},
+      {"comp_rapid", "a rapid begins or ends radius compensation",
+       "Warning. The first move after G41/G42 and the first after G40 run obliquely to and from "
+       "the "
+       "contour; as a rapid that cuts in at full speed, also when only Z is given. Example: `G40` "
+       "and then `G0 Z50`. Use G1 for both."},
       {"cycle_error", "a canned cycle that can't be carried out",
        "R must lie above the bottom, rotary axes can't move in it, G93 is not possible. Example: "
        "`G81 X1 R-5 Z-1`."},
+      {"cycle_modal_change", "the plane or unit changes within a group of canned cycles",
+       "Warning. A group lasts until G80 or another motion code. A change of plane (G17 G18 G19) "
+       "inside it leaves the level to retract to on another axis, a change of unit (G20 G21) the "
+       "kept R, depth and Q in doubt. Example: `G81 X1 Y1 Z-5 R2`, `G20`, `X1`. Give G80 first."},
       {"decimal_point", "a number without a decimal point counts increments",
        "Warning. On Fanuc-like controls X10 is 0.010 mm or 0.0010 in, X10. is 10. Write the point, "
        "or "
@@ -206,6 +215,11 @@ const std::vector<KindText>& error_kinds() {
        "and the word E3."},
       {"word_value", "a word outside its range",
        "Example: `G2 … P0` (turns are 1 or more), `S-5`, an H word that is not an integer."},
+      {"wrong_offset", "the length or diameter of another tool",
+       "H (error) or D (warning) names another tool than the one in the spindle when the machine "
+       "next moves, or the length of the tool before is still in force at the first cut. A wrong "
+       "length drives the tool into the work, a wrong diameter makes the contour too large or too "
+       "small. Example: `T2 M6`, `G43 H1`. On purpose: --waive wrong_offset=REASON."},
       {"zero_feed", "a feed move without a feed",
        "G1, G2, G3, probing and cycles need F above 0; G93, G94 and G95 forget the one before. "
        "Example: `G1 X1` as the first line."},

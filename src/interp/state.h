@@ -25,8 +25,10 @@ struct SpindleState {
 /// What a canned cycle remembers from line to line. In program units of the lines' numbers
 /// converted to mm; along the plane's normal axis in program coordinates.
 struct CycleState {
-  int code = 0;        ///< of the cycle group in force, 0 outside
-  double initial = 0;  ///< normal coordinate when the group began
+  int code = 0;                                ///< of the cycle group in force, 0 outside
+  double initial = 0;                          ///< normal coordinate when the group began
+  canon::Plane plane = canon::Plane::xy;       ///< when the group began
+  canon::Unit unit = canon::Unit::millimetre;  ///< when its words were given
   double r = 0, z = 0, p = 0, q = 0, d = 0;
   bool has_p = false, has_q = false, has_d = false;
 };

@@ -170,7 +170,7 @@ Verdict judge(const std::vector<Finding>& findings, const Summary& summary,
   for (const Diagnostic& d : diagnostics.list())
     if (fail_on && d.severity >= *fail_on) return Verdict::fail;
   // A refused block is never a pass, whatever the fail level.
-  if (summary.program_refused || diagnostics.errors() > 0) unknown = true;
+  if (summary.program_refused) unknown = true;
   return unknown ? Verdict::unknown : Verdict::pass;
 }
 

@@ -43,6 +43,7 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
       interrupted = true;
       break;
     }
+    if (options.listen) options.listen(*command);
     if (moving && diagnostics.errors() > 0) {
       planner.flush();
       drain();

@@ -244,6 +244,7 @@ struct RunOptions {
   double max_time = 360'000;                                  ///< simulated seconds
   std::function<bool()> stop_requested;                       ///< asked every block; may be empty
   std::function<void(double t, const SourceSpan&)> progress;  ///< may be empty
+  std::function<void(const canon::Command&)> listen;          ///< sees every command; may be empty
 };
 
 /// The main loop: program → commands → segments → machine. Errors of the program are in the

@@ -45,7 +45,7 @@ TEST_F(Check, GivesTheSameExitCodeInEveryFormat) {
 
 TEST_F(Check, KeepsProgramsApart) {
   // The second one needs a parameter and a feed that only the first one sets.
-  put("one.ngc", "G20\n#<_mine>=7\nG1 X[#<_mine>] F100\nM2\n");
+  put("one.ngc", "G20 M3 S500\n#<_mine>=7\nG1 X[#<_mine>] F100\nM2\n");
   put("two.ngc", "G1 X1\nG0 X#<_mine>\nM2\n");
   const std::string one = path("one.ngc"), two = path("two.ngc");
   const json both = json::parse(aircut("check " + one + " " + two + " --json").out);
@@ -75,7 +75,7 @@ TEST_F(Check, TakesAThousandPrograms) {
   for (int i = 0; i < 1000; ++i) {
     const std::string name = "many/part-" + std::to_string(1000 + i) + ".ngc";
     if (i % 100 != 99)
-      put(name, "G21 G90\n(part " + std::to_string(i) + ")\nG0 X" + std::to_string(i) +
+      put(name, "G21 G90 M3 S500\n(part " + std::to_string(i) + ")\nG0 X" + std::to_string(i) +
                     (i % 10 == 0 ? "\nG1 X1\nM2\n" : "\nG1 X1 F100\nM2\n"));
     list += " many/part-" + std::to_string(1000 + i) + ".ngc";
   }

@@ -24,6 +24,12 @@ Setting small_limits() {
   Setting setting;
   setting.options.limits.max_idle_blocks = 5000;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) setting.options.axes.add(axis);
+  for (const int number : {1, 2}) {
+    tool::Tool tool;
+    tool.number = number;
+    tool.diameter = 4 * number;
+    setting.tools.tools.push_back(tool);
+  }
   return setting;
 }
 

@@ -101,7 +101,10 @@ TEST(Judge, NeverPassesWhatWasNotChecked) {
   Diagnostics refused;
   refused.error("arc_error", {}, "…");
   EXPECT_EQ(judge({}, {}, refused, Severity::error), Verdict::fail);
-  EXPECT_EQ(judge({}, {}, refused, std::nullopt), Verdict::unknown);
+  EXPECT_EQ(judge({}, {}, refused, std::nullopt), Verdict::pass);  // a doubt, not a refusal
+  Summary stopped;
+  stopped.program_refused = true;
+  EXPECT_EQ(judge({}, stopped, refused, std::nullopt), Verdict::unknown);
 }
 
 TEST(Findings, AreSortedNumberedAndTiedIntoEpisodes) {

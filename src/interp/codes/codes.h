@@ -96,7 +96,8 @@ bool feed_is_set(BlockRun& run, const CodeRule& rule);
 /// Makes `next`'s settings of work system `system` the ones in force, from the parameters.
 void load_work_system(BlockRun& run, int system);
 /// Sets the length offset in force; the controlled point stays where it is.
-void use_length_offset(BlockRun& run, const AxisValues& offset);
+/// `tool`: whose length it is; 0 when it is not a tool's.
+void use_length_offset(BlockRun& run, const AxisValues& offset, int tool = 0);
 /// Emits the commands that bring a listener from `from` to `to` (M72 and returns of M73).
 void restore_state(BlockRun& run, const ModalState& saved);
 

@@ -30,6 +30,7 @@ class Cycle {
  private:
   bool allowed();
   bool read_words();
+  void warn_of_changed_modes(bool same);
   bool need(char letter, bool same, bool& sticky, double& value, const char* what);
   bool spindle_fits();
   bool count_moves(int repeats);
@@ -90,15 +91,36 @@ bool Cycle::need(char letter, bool same, bool& sticky, double& value, const char
   return true;
 }
 
+// What the cycle keeps from the lines before was said in another plane or unit.
+void Cycle::warn_of_changed_modes(bool same) {
+  CycleState& cycle = state_.cycle;
+  if (cycle.plane != state_.plane)
+    run_.warning("cycle_modal_change", run_.whole(),
+                 "the plane was changed since this group of canned cycles began: the level to "
+                 "retract to was taken along another axis; give G80 before the change");
+  else if (same && cycle.unit != state_.unit &&
+           !(run_.has('R') && run_.has(letter(axes_.normal)) && (run_.has('Q') || !cycle.has_q)))
+    run_.warning("cycle_modal_change", run_.whole(),
+                 "the unit was changed since this cycle's R, depth or Q were given, and controls "
+                 "differ in how they take them over; give them again");
+  cycle.plane = state_.plane;
+  cycle.unit = state_.unit;
+}
+
 bool Cycle::read_words() {
   CycleState& cycle = state_.cycle;
   const bool same = cycle.code == rule_.code;
   if (!same) {
-    const double initial = cycle.code == 0 ? c_ : cycle.initial;
+    const bool begins = cycle.code == 0;
+    const double initial = begins ? c_ : cycle.initial;
+    const canon::Plane plane = begins ? state_.plane : cycle.plane;
     cycle = CycleState{};
     cycle.initial = initial;
+    cycle.plane = plane;
+    cycle.unit = state_.unit;
     cycle.code = rule_.code;
   }
+  warn_of_changed_modes(same);
   const char normal = letter(axes_.normal);
   if (!run_.has('R') && !same) {
     run_.error("word_missing", rule_, name_of(rule_) + " needs R: the level from which it feeds");

@@ -170,6 +170,12 @@ void radius_comp_on(const CodeRule& rule, BlockRun& run) {
     if (!tool && number != 0)
       return run.error("tool_unknown", run.has('D') ? run.place('D') : run.place(rule),
                        "tool " + std::to_string(number) + " is not in the tool table");
+    if (run.has('D') && number != state.tool && state.tool != 0)
+      run.warning("wrong_offset", run.place('D'),
+                  "D takes the diameter of tool " + std::to_string(number) + ", but tool " +
+                      std::to_string(state.tool) +
+                      " is in the spindle: the contour comes out too large or too small; leave D "
+                      "out for the tool in the spindle");
     if (tool) {
       diameter = tool->diameter;
       comp.orientation = tool->orientation;

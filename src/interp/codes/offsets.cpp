@@ -189,10 +189,10 @@ void store_home(const CodeRule& rule, BlockRun& run) {
                  run.state.tip + run.state.length_offset);
 }
 
-void use_length_offset(BlockRun& run, const AxisValues& offset) {
+void use_length_offset(BlockRun& run, const AxisValues& offset, int tool) {
   run.state.tip += run.state.length_offset - offset;
   run.state.length_offset = offset;
-  run.emit(canon::ToolLengthOffset{offset});
+  run.emit(canon::ToolLengthOffset{offset, tool});
 }
 
 void length_offset(const CodeRule& rule, BlockRun& run) {
@@ -226,7 +226,8 @@ void length_offset(const CodeRule& rule, BlockRun& run) {
     return run.error("tool_unknown", run.has('H') ? run.place('H') : run.place(rule),
                      "tool " + std::to_string(number) + " is not in the tool table");
   const AxisValues of_tool = tool ? tool->offset : AxisValues{};
-  use_length_offset(run, rule.code == 432 ? offset + of_tool : of_tool);
+  if (rule.code == 432) return use_length_offset(run, offset + of_tool);
+  use_length_offset(run, of_tool, number);
 }
 
 void work_system(const CodeRule& rule, BlockRun& run) {
