@@ -13,8 +13,12 @@ namespace {
 constexpr double shortest_interval = 1e-9;  // s
 }  // namespace
 
+std::size_t travel_count(const machine::Machine& machine) {
+  return static_cast<std::size_t>(machine.joint_count() + machine.kinematics().passive_count());
+}
+
 JointTrack::JointTrack(const JointMotion& motion, machine::JointId joint, double sign)
-    : motion_(motion), joint_(index(joint)), sign_(sign), travel_(motion.machine().tree().size()) {}
+    : motion_(motion), joint_(index(joint)), sign_(sign), travel_(travel_count(motion.machine())) {}
 
 std::optional<double> JointTrack::value(double t) const {
   const auto q = motion_.at(t);

@@ -39,7 +39,7 @@ class JointMotion {
   tl::expected<JointState, machine::ReachError> state_at(double t) const;
   AxisValues tip_at(double t) const;
   /// Upper bound of the way of every driven joint, then of every passive value, in [ta, tb];
-  /// false when no finite bound is known. `travel` has machine.tree().size() elements.
+  /// false when no finite bound is known. `travel` has travel_count() elements or more.
   bool travel_bound(double ta, double tb, std::span<double> travel) const;
 
  private:
@@ -51,6 +51,9 @@ class JointMotion {
   /// at the start say nothing about the turn or branch at the end.
   std::vector<JointVector> anchors_;
 };
+
+/// How many values travel_bound() gives: driven joints and passive values.
+std::size_t travel_count(const machine::Machine& machine);
 
 /// Signed joint value over time within one motion: value(t) = sign · q_joint(t). Borrows the
 /// motion.

@@ -46,7 +46,7 @@ struct TravelCheck::State {
 TravelCheck::TravelCheck(const machine::Machine& machine, const machine::JointVector& start,
                          Diagnostics& out)
     : state_(std::make_unique<State>(State{machine, start, out, {}, {}, {}, {}, false, {}, {}})) {
-  state_->travel.assign(machine.tree().size(), 0);
+  state_->travel.assign(motion::travel_count(machine), 0);
   if (const auto tip = machine.kinematics().forward(start, {})) state_->tip = *tip;
 }
 TravelCheck::~TravelCheck() = default;
