@@ -146,21 +146,19 @@ void TravelCheck::State::spline(const canon::Command& command, const canon::Spli
 
 bool TravelCheck::State::reaches(const motion::JointMotion& motion, const canon::Command& command) {
   const double length = motion.t1();
-  const auto tell = [&](double fraction, const std::string& why) {
-    if (!std::exchange(out_of_reach, true) && told.size() < most_messages)
-      out.error("unreachable", trimmed(command.span),
-                "the path leaves what the machine can reach, at " + fixed(fraction * 100, 0) +
-                    " % of this move: " + why);
-    return false;
-  };
   const auto end = motion.at(length);
-  if (end && motion.at(length / 2)) {
-    out_of_reach = false;
-    return true;
+  const bool was_out = std::exchange(out_of_reach, !end);
+  if (end && motion.at(length / 2)) return true;
+  for (int i = 1; i <= samples; ++i) {
+    const auto q = motion.at(length * i / samples);
+    if (q) continue;
+    if (!was_out && told.size() < most_messages)
+      out.error("unreachable", trimmed(command.span),
+                "the path leaves what the machine can reach, at " + fixed(100.0 * i / samples, 0) +
+                    " % of this move: " + q.error().reason);
+    if (end) joints = *end;
+    return false;
   }
-  for (int i = 1; i <= samples; ++i)
-    if (const auto q = motion.at(length * i / samples); !q)
-      return tell(static_cast<double>(i) / samples, q.error().reason);
   return true;
 }
 
