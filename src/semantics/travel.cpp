@@ -154,7 +154,8 @@ bool TravelCheck::State::reaches(const motion::JointMotion& motion, const canon:
     if (q) continue;
     if (!was_out && told.size() < most_messages)
       out.error("unreachable", trimmed(command.span),
-                "the path leaves what the machine can reach, at " + fixed(100.0 * i / samples, 0) +
+                "the path leaves what the machine can reach, at " +
+                    fixed(length > 0 ? 100.0 * i / samples : 100, 0) +
                     " % of this move: " + q.error().reason);
     if (end) joints = *end;
     return false;
