@@ -62,10 +62,41 @@ void add_output(CLI::App* app, OutputArguments& o, std::string& fail_on) {
   app->add_option("--fail-on", fail_on, "from which severity the exit code is 1 (default: error)")
       ->check(CLI::IsMember({"error", "warning", "info", "never"}).description(""))
       ->type_name("error|warning|info|never");
+  app->add_flag("--strict", o.strict, "what makes the verdict unknown is an error");
+  app->add_option("--waive", o.waive,
+                  "accept messages: KIND=REASON, KIND:FILE=REASON or KIND:FILE:LINE=REASON "
+                  "(repeatable); the report lists them")
+      ->allow_extra_args(false)
+      ->type_name("WAIVER");
+  app->add_option("--raise", o.raise, "make a kind of message an error (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("KIND");
+  app->add_option("--baseline", o.baseline, "accept what an earlier result.json or SARIF file has")
+      ->type_name("FILE");
   app->add_option("--max-findings", o.max_findings, "messages printed for people (default 100)")
       ->type_name("N");
   app->add_flag("-q,--quiet", o.quiet, "print the verdict only");
   add_color(app, o.color);
+}
+
+// Which checks there are; `existing` of them can be asked of this command.
+void add_checks(CLI::App* app, std::vector<std::string>& checks,
+                const std::vector<std::string>& existing) {
+  std::string words;
+  for (const std::string& word : existing) words += (words.empty() ? "" : "|") + word;
+  app->add_option("--check", checks, "what to check (default all)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->check([=](const std::string& word) -> std::string {
+        if (std::find(existing.begin(), existing.end(), word) != existing.end()) return "";
+        const std::string there_are = "; this command has " + words;
+        if (word == "dynamics" || word == "cut")
+          return "the check '" + word + "' does not exist yet" + there_are;
+        if (word == "collision") return "aircut run looks for collisions" + there_are;
+        return "there is no check '" + printable(word) + "'." + did_you_mean(word, existing) +
+               there_are;
+      })
+      ->type_name(words);
 }
 
 std::optional<Severity> severity_of(const std::string& word) {
@@ -170,10 +201,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_run->add_option("--near", run.near, "tell approaches closer than this, mm (default 2; 0 = off)")
       ->check(CLI::Range(0.0, 1000.0).description(""))
       ->type_name("MM");
-  c_run->add_option("--check", run.checks, "what to check (default all)")
-      ->delimiter(',')
-      ->check(CLI::IsMember({"all", "syntax", "limits", "collision"}).description(""))
-      ->type_name("all|syntax|limits|collision");
+  add_checks(c_run, run.checks, {"all", "syntax", "semantics", "limits", "collision"});
   c_run
       ->add_option("--frames", run.frames,
                    "every=2s, at=12.5,80, line=128, tool-change, finding, count=24 (repeatable; "
@@ -199,6 +227,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_check->add_option("PROGRAM", check.programs, "programs")->required();
   c_check->add_option("-m,--machine", check.program.machine, "machine whose axes and tools count")
       ->type_name("MACHINE");
+  add_checks(c_check, check.checks, {"all", "syntax", "semantics", "limits"});
   add_program(c_check, check.program, set);
   add_output(c_check, check.output, fail_on);
 

@@ -35,6 +35,9 @@ struct OutputArguments {
   When progress = When::automatic;
   std::optional<Severity> fail_on = Severity::error;
   std::size_t max_findings = 100;
+  bool strict = false;
+  std::vector<std::string> waive, raise;  ///< as written
+  std::string baseline;                   ///< file
 };
 
 struct RunArguments {
@@ -56,6 +59,7 @@ struct RunArguments {
 struct CheckArguments {
   ProgramArguments program;  ///< `program` unused
   std::vector<std::string> programs;
+  std::vector<std::string> checks;  ///< empty: all that are possible
   OutputArguments output;
 };
 

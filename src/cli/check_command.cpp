@@ -21,8 +21,8 @@ constexpr std::size_t most_messages = 100'000;
 // Reads a program to its end; moves nothing. What it says is added to `diagnostics`; sets
 // `refused` when the control would refuse a block.
 report::Unit check_program(const Job& job, const ProgramArguments& arguments,
-                           const SourceText& program, SourceMap& sources, Diagnostics& diagnostics,
-                           bool& refused) {
+                           const SourceText& program, SourceMap& sources, const Checks& checks,
+                           Diagnostics& diagnostics, bool& refused) {
   report::Unit unit;
   interp::Interpreter interpreter(program, job.tools, job.parameters,
                                   interpreter_options(job, arguments, program), sub_reader(sources),
@@ -30,7 +30,7 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
   const auto parameters = interpreter.parameters();
   semantics::ProgramCheck meaning({job.tools, job.machine.get()}, diagnostics, diagnostics);
   std::optional<semantics::TravelCheck> travel;
-  if (job.machine) travel.emplace(*job.machine, job.start, diagnostics);
+  if (job.machine && checks.limits) travel.emplace(*job.machine, job.start, diagnostics);
   std::size_t own_errors = 0;
   const auto errors_of = [&](const auto& look) {
     const std::size_t before = diagnostics.errors();
@@ -40,16 +40,17 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
   while (const auto command = interpreter.next()) {
     if (canon::is_motion(command->action)) ++unit.moves;
     errors_of([&] {
-      meaning.see(*command);
+      if (checks.semantics) meaning.see(*command);
       if (travel) travel->see(*command);
     });
     if (const auto* probe = std::get_if<canon::Probe>(&command->action))
       interpreter.resume({.tip = probe->end, .tripped = false});
   }
   errors_of([&] {
-    meaning.finish({.reached = interpreter.statistics().ended,
-                    .before = parameters.values,
-                    .after = interpreter.parameters().values});
+    if (checks.semantics)
+      meaning.finish({.reached = interpreter.statistics().ended,
+                      .before = parameters.values,
+                      .after = interpreter.parameters().values});
   });
   refused = diagnostics.errors() > own_errors;
   unit.blocks = interpreter.statistics().blocks;
@@ -57,7 +58,8 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
   if (travel)
     unit.unchecked.insert(unit.unchecked.end(), travel->unchecked().begin(),
                           travel->unchecked().end());
-  if (interpreter.statistics().limit_reached)
+  unit.limit_reached = interpreter.statistics().limit_reached;
+  if (unit.limit_reached)
     unit.unchecked.push_back(program.name() + ": a limit on its length was reached");
   return unit;
 }
@@ -73,56 +75,99 @@ sim::Verdict worse(sim::Verdict a, sim::Verdict b) {
 
 int check_command(const CheckArguments& a) {
   Job job;
-  if (!open_inputs(job, a.program)) {
-    print_errors(job.diagnostics, a.output.color);
-    return code(ExitCode::unknown);
-  }
+  auto rules = rules_of(a.output, job.sources);
+  if (!rules) return refuse(rules.error(), a.output);
+  if (std::find(a.checks.begin(), a.checks.end(), "limits") != a.checks.end() &&
+      a.program.machine.empty())
+    return refuse(make_error("usage", "--check limits needs a machine: name one with -m"),
+                  a.output);
+  if (!open_inputs(job, a.program)) return refuse(job.diagnostics, a.output);
+  const Checks checks = asked_for(a.checks);
+  report::Acceptance acceptance(std::move(*rules));
   report::RunReport report;
   report.version = AIRCUT_VERSION;
   report.inputs = job.inputs;
-  report.checks = {"syntax", "semantics"};
-  if (job.machine) report.checks.push_back("limits of the programmed path");
+  report.checks = {"syntax"};
+  if (checks.semantics) report.checks.push_back("semantics");
+  if (job.machine && checks.limits) report.checks.push_back("limits of the programmed path");
   report.fail_on = a.output.fail_on;
+  report.folder = working_folder();
   report.diagnostics = job.diagnostics.list();
   if (job.machine) report.machine = job.machine->name();
 
+  const bool stream = a.output.format == Format::jsonl;
+  const auto stream_shared = [&](std::size_t from) {  // messages of no program
+    report::RunReport shared;
+    shared.diagnostics.assign(report.diagnostics.begin() + static_cast<std::ptrdiff_t>(from),
+                              report.diagnostics.end());
+    return print_text(report::jsonl_messages(shared, false));
+  };
+  bool printed = !stream || (print_text(report::jsonl_head(report)) && stream_shared(0));
   sim::Verdict worst = sim::judge({}, {}, job.diagnostics, a.output.fail_on);
   std::vector<std::unique_ptr<SourceMap>> kept;
+  std::size_t messages = 0;
   for (const std::string& path : a.programs) {
     auto sources = std::make_unique<SourceMap>();
-    Diagnostics diagnostics;
-    sim::Summary summary;
+    report::RunReport part;  // what this program gives
+    part.folder = report.folder;
+    part.fail_on = report.fail_on;
     report::Unit unit;
+    const std::size_t accepted_before = report.accepted.size();
     if (const auto program = open_program(*sources, path)) {
-      report.inputs.push_back({"program", path, sha256((*program)->content())});
-      unit =
-          check_program(job, a.program, **program, *sources, diagnostics, summary.program_refused);
+      part.inputs.push_back({"program", path, sha256((*program)->content())});
+      Diagnostics diagnostics;
+      unit = check_program(job, a.program, **program, *sources, checks, diagnostics,
+                           part.summary.program_refused);
+      if (unit.limit_reached) report.unknown_cause = "limit";
+      for (const Diagnostic& d : diagnostics.list())
+        if (checks.semantics || !semantics::is_semantic(d.kind)) part.diagnostics.push_back(d);
     } else {
       if (a.output.quiet) print_error(program.error(), a.output.color);
       unit.unchecked.push_back(program.error().message);
+      report.unknown_cause = "input";
     }
     unit.program = path;
-    unit.first = report.diagnostics.size();
+    acceptance.apply(path, part.diagnostics, part.findings, unit.unchecked, report);
+    part.accepted.assign(report.accepted.begin() + static_cast<std::ptrdiff_t>(accepted_before),
+                         report.accepted.end());
+    Diagnostics all;
+    for (const Diagnostic& d : part.diagnostics) all.add(d);
     unit.count =
-        std::min(diagnostics.list().size(), most_messages - std::min(most_messages, unit.first));
-    if (const std::size_t more = diagnostics.list().size() - unit.count; more > 0)
+        std::min(part.diagnostics.size(), most_messages - std::min(most_messages, messages));
+    messages += unit.count;
+    if (const std::size_t more = part.diagnostics.size() - unit.count; more > 0)
       unit.unchecked.push_back(path + ": " + std::to_string(more) +
                                " more messages were counted but not kept");
-    summary.unchecked = unit.unchecked;
-    unit.verdict = sim::judge({}, summary, diagnostics, a.output.fail_on);
-    for (std::size_t i = 0; i < unit.count; ++i)
-      report.diagnostics.push_back(diagnostics.list()[i]);
-    if (unit.count > 0) kept.push_back(std::move(sources));
+    part.diagnostics.resize(unit.count);
+    part.summary.unchecked = unit.unchecked;
+    unit.verdict = sim::judge({}, part.summary, all, a.output.fail_on);
+    part.units = {unit};
+    if (stream) printed = print_text(report::jsonl_messages(part, true)) && printed;
+    if (unit.count > 0 || !part.accepted.empty()) kept.push_back(std::move(sources));
 
+    unit.first = report.diagnostics.size();
+    report.inputs.insert(report.inputs.end(), part.inputs.begin(), part.inputs.end());
+    report.diagnostics.insert(report.diagnostics.end(), part.diagnostics.begin(),
+                              part.diagnostics.end());
     report.summary.blocks += unit.blocks;
     report.summary.moves += unit.moves;
-    report.summary.program_refused |= summary.program_refused;
+    report.summary.program_refused |= part.summary.program_refused;
     for (const std::string& what : unit.unchecked) report.summary.unchecked.push_back(what);
     worst = worse(worst, unit.verdict);
     report.units.push_back(std::move(unit));
   }
+  const std::size_t of_programs = report.diagnostics.size();
+  acceptance.finish(report);
+  if (stream) printed = stream_shared(of_programs) && printed;
+  if (a.output.fail_on && *a.output.fail_on <= Severity::warning)
+    for (const report::Waiver& waiver : report.waivers)
+      if (waiver.used == 0) worst = sim::Verdict::fail;
   report.summary.verdict = worst;
-  if (!print_report(report, a.output)) {
+  if (stream)
+    printed = print_text(report::jsonl_summary(report)) && printed;
+  else
+    printed = print_report(report, a.output);
+  if (!printed) {
     print_error(make_error("output_failed", "can't write to standard output"), a.output.color);
     return code(ExitCode::unknown);
   }

@@ -20,6 +20,10 @@ const std::vector<KindText>& general_kinds() {
        "The file is missing, is a folder, or can't be opened; the message has the system's reason. "
        "Exit\n"
        "code 2: the job could not be verified."},
+      {"waiver_unused", "a waiver that accepts nothing",
+       "Warning. No message matched a --waive, so it hides nothing today but may hide something\n"
+       "tomorrow. Remove it. A file in a waiver is the name that messages show, or the end of it\n"
+       "after a slash; a line must be the message's."},
       {"output_failed", "an output could not be written",
        "The folder exists already (use --force), can't be written, or the disk is full. Files are "
        "written\n"

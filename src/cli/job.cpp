@@ -8,6 +8,9 @@
 #include <filesystem>
 #include <iterator>
 
+#include "cli/exit_code.h"
+#include "cli/print_report.h"
+
 namespace aircut::cli {
 
 namespace fs = std::filesystem;
@@ -161,6 +164,69 @@ interp::Options interpreter_options(const Job& job, const ProgramArguments& argu
   for (const std::string& folder : arguments.sub_path) options.sub_path.push_back(folder);
   if (arguments.max_blocks) options.limits.max_blocks = *arguments.max_blocks;
   return options;
+}
+
+Checks asked_for(const std::vector<std::string>& words) {
+  const auto has = [&](const char* word) {
+    return std::find(words.begin(), words.end(), word) != words.end();
+  };
+  if (words.empty() || has("all")) return {};
+  return {has("semantics"), has("limits"), has("collision")};
+}
+
+Expected<report::Rules> rules_of(const OutputArguments& output, SourceMap& sources) {
+  std::vector<std::string> names;
+  for (const KindText& row : all_kinds()) names.push_back(row.kind);
+  const auto unknown_kind = [&](const std::string& option, const std::string& kind) {
+    return make_error("usage", option + ": there is no kind '" + printable(kind) + "'." +
+                                   did_you_mean(kind, names) + " aircut explain --list has all");
+  };
+  const auto known = [&](const std::string& kind) {
+    return std::find(names.begin(), names.end(), kind) != names.end();
+  };
+  report::Rules rules;
+  rules.strict = output.strict;
+  for (const std::string& text : output.waive) {
+    auto waiver = report::read_waiver(text);
+    if (!waiver) return unexpected(waiver.error());
+    if (!known(waiver->kind)) return unexpected(unknown_kind("--waive", waiver->kind));
+    rules.waivers.push_back(std::move(*waiver));
+  }
+  for (const std::string& kind : output.raise) {
+    if (!known(kind)) return unexpected(unknown_kind("--raise", kind));
+    rules.raised.push_back(kind);
+  }
+  if (output.baseline.empty()) return rules;
+  const auto text = sources.open(output.baseline);
+  if (!text) return unexpected(text.error());
+  auto baseline = report::read_baseline(**text);
+  if (!baseline) return unexpected(baseline.error());
+  rules.baseline = std::move(*baseline);
+  rules.has_baseline = true;
+  return rules;
+}
+
+int refuse(const Diagnostics& diagnostics, const OutputArguments& output) {
+  print_errors(diagnostics, output.color);
+  if (output.format != Format::json && output.format != Format::jsonl)
+    return code(ExitCode::unknown);
+  report::RunReport report;
+  report.version = AIRCUT_VERSION;
+  report.diagnostics = diagnostics.list();
+  report.summary.unchecked = {"everything: the job could not begin"};
+  report.unknown_cause = "input";
+  for (const Diagnostic& d : diagnostics.list())
+    if (d.kind == "usage") report.unknown_cause = "usage";
+  for (const Diagnostic& d : diagnostics.list())
+    if (d.kind == "output_failed") report.unknown_cause = "output";
+  (void)print_report(report, output);  // it is unknown already
+  return code(ExitCode::unknown);
+}
+
+int refuse(const Diagnostic& diagnostic, const OutputArguments& output) {
+  Diagnostics one;
+  one.add(diagnostic);
+  return refuse(one, output);
 }
 
 SourceReader sub_reader(SourceMap& sources) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "report/accept.h"
 #include "report/report.h"
 #include "sim/sim.h"
 
@@ -32,6 +33,21 @@ Expected<const SourceText*> open_program(SourceMap& sources, const std::string& 
 
 /// Folders in which packages are looked for by name.
 std::vector<std::string> package_folders();
+
+/// What --check asks for. Syntax is always looked at.
+struct Checks {
+  bool semantics = true, limits = true, collision = true;
+};
+Checks asked_for(const std::vector<std::string>& words);
+
+/// --waive, --raise, --baseline, --strict. Errors: a kind that does not exist, a file that can't be
+/// read.
+Expected<report::Rules> rules_of(const OutputArguments& output, SourceMap& sources);
+
+/// Ends a command that could not begin: the messages on stderr, and as a document on stdout when
+/// one was asked for.
+int refuse(const Diagnostics& diagnostics, const OutputArguments& output);
+int refuse(const Diagnostic& diagnostic, const OutputArguments& output);
 
 /// Interpreter options for a job; `rs274` takes the reference's units.
 interp::Options interpreter_options(const Job& job, const ProgramArguments& arguments,

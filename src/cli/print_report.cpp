@@ -23,12 +23,8 @@ std::string text_of(const report::RunReport& report, const OutputArguments& outp
       return report::to_jsonl(report);
     case Format::gcc:
       return report::to_gcc(report);
-    case Format::sarif: {
-      std::error_code error;
-      return report::to_sarif(
-          report,
-          {.kinds = all_kinds(), .folder = std::filesystem::current_path(error).generic_string()});
-    }
+    case Format::sarif:
+      return report::to_sarif(report, {.kinds = all_kinds(), .folder = working_folder()});
     case Format::junit:
       return report::to_junit(report);
     case Format::github:
@@ -39,8 +35,16 @@ std::string text_of(const report::RunReport& report, const OutputArguments& outp
 
 }  // namespace
 
+std::string working_folder() {
+  std::error_code error;
+  return std::filesystem::current_path(error).generic_string();
+}
+
 bool print_report(const report::RunReport& report, const OutputArguments& output) {
-  const std::string text = text_of(report, output);
+  return print_text(text_of(report, output));
+}
+
+bool print_text(const std::string& text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
   return std::fflush(stdout) == 0 && written;
 }

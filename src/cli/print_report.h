@@ -9,7 +9,12 @@ namespace aircut::cli {
 /// All kinds of messages with their long text, sorted by kind.
 std::vector<KindText> all_kinds();
 
-/// False when standard output could not be written (a full disk).
+/// Where aircut runs: paths in fingerprints and SARIF are relative to it.
+std::string working_folder();
+
+/// Text on stdout; false when it could not be written (a full disk).
+[[nodiscard]] bool print_text(const std::string& text);
+/// False when standard output could not be written.
 [[nodiscard]] bool print_report(const report::RunReport& report, const OutputArguments& output);
 
 }  // namespace aircut::cli

@@ -86,18 +86,6 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
   return {};
 }
 
-struct Checks {
-  bool limits = true, collision = true;
-};
-
-Checks asked_for(const std::vector<std::string>& words) {
-  const auto has = [&](const char* word) {
-    return std::find(words.begin(), words.end(), word) != words.end();
-  };
-  if (words.empty() || has("all")) return {};
-  return {has("limits"), has("collision")};
-}
-
 bool wants_frames(const RunArguments& a) {
   return !(a.frames.size() == 1 && a.frames[0] == "none");
 }
@@ -125,10 +113,7 @@ Expected<report::FrameOptions> frame_options(const RunArguments& a) {
 }  // namespace
 
 int run_command(const RunArguments& a) {
-  const auto fail = [&](const Diagnostic& d) {
-    print_error(d, a.output.color);
-    return code(ExitCode::unknown);
-  };
+  const auto fail = [&](const Diagnostic& d) { return refuse(d, a.output); };
   // Everything that can be wrong is looked at before anything is written.
   const auto frames = frame_options(a);
   if (!frames) return fail(frames.error());
@@ -141,13 +126,12 @@ int run_command(const RunArguments& a) {
     return fail(make_error("output_failed",
                            "'" + printable(a.log) + "' exists; name another file, or use --force"));
   Job job;
+  auto rules = rules_of(a.output, job.sources);
+  if (!rules) return fail(rules.error());
   const auto program = open_program(job.sources, a.program.program);
   if (!program) return fail(program.error());
   job.inputs.push_back({"program", a.program.program, sha256((*program)->content())});
-  if (!open_inputs(job, a.program)) {
-    print_errors(job.diagnostics, a.output.color);
-    return code(ExitCode::unknown);
-  }
+  if (!open_inputs(job, a.program)) return refuse(job.diagnostics, a.output);
   if (!a.folder.empty())
     if (auto ready = prepare_folder(a.folder, a.force); !ready) return fail(ready.error());
 
@@ -195,13 +179,14 @@ int run_command(const RunArguments& a) {
   Diagnostics doubts;
   semantics::ProgramCheck meaning({job.tools, job.machine.get(), true}, diagnostics, doubts);
   const auto parameters = interpreter.parameters();
-  options.listen = [&](const canon::Command& command) { meaning.see(command); };
+  if (checks.semantics)
+    options.listen = [&](const canon::Command& command) { meaning.see(command); };
   sim::Simulator::Result result = sim::run(interpreter, diagnostics, planner, simulator, options);
   progress.clear();
-  meaning.finish({.reached = interpreter.statistics().ended,
-                  .before = parameters.values,
-                  .after = interpreter.parameters().values});
-  for (const Diagnostic& d : doubts.list()) diagnostics.add(d);
+  if (checks.semantics)
+    meaning.finish({.reached = interpreter.statistics().ended,
+                    .before = parameters.values,
+                    .after = interpreter.parameters().values});
   result.summary.unchecked.insert(result.summary.unchecked.end(), meaning.unchecked().begin(),
                                   meaning.unchecked().end());
 
@@ -210,7 +195,8 @@ int run_command(const RunArguments& a) {
   report.fail_on = a.output.fail_on;
   report.machine = machine.name();
   report.inputs = job.inputs;
-  report.checks = {"syntax", "semantics"};
+  report.checks = {"syntax"};
+  if (checks.semantics) report.checks.push_back("semantics");
   if (checks.limits) report.checks.push_back("limits");
   if (checks.collision) report.checks.push_back("collision");
   report.settings = {{"near_mm", a.near},
@@ -228,15 +214,25 @@ int run_command(const RunArguments& a) {
         report.summary.unchecked.push_back(d.message);
       }
   }
-  for (const Diagnostic& d : diagnostics.list()) report.diagnostics.push_back(d);
+  for (const Diagnostics* list : {&diagnostics, &doubts})
+    for (const Diagnostic& d : list->list())
+      if (checks.semantics || !semantics::is_semantic(d.kind)) report.diagnostics.push_back(d);
   report.findings = std::move(result.findings);
+  report.folder = working_folder();
+  if (interpreter.statistics().limit_reached || result.summary.limit_reached)
+    report.unknown_cause = "limit";
   for (int j = 0; j < machine.joint_count(); ++j) {
     const machine::Joint& joint = machine.joint(machine::JointId{j});
     report.joint_names.push_back(joint.name);
     report.joint_rotary.push_back(joint.kind == machine::JointKind::rotary);
   }
-  report.summary.verdict =
-      sim::judge(report.findings, report.summary, diagnostics, a.output.fail_on);
+  report::Acceptance acceptance(std::move(*rules));
+  acceptance.apply(a.program.program, report.diagnostics, report.findings, report.summary.unchecked,
+                   report);
+  acceptance.finish(report);
+  Diagnostics judged;
+  for (const Diagnostic& d : report.diagnostics) judged.add(d);
+  report.summary.verdict = sim::judge(report.findings, report.summary, judged, a.output.fail_on);
 
   if (log) {
     if (auto written = log->result(); !written) return fail(written.error());

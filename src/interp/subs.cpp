@@ -25,6 +25,22 @@ bool is_safe_name(const std::string& name) {
   return true;
 }
 
+// `, in a circle: o1 call → o2 call → …` when the innermost call's sub is open further out already.
+std::string circle_of_calls(const std::vector<Frame>& frames) {
+  const Frame& inner = frames.back();
+  std::size_t from = frames.size() - 1;
+  while (from > 1 && !(frames[from - 1].file == inner.file && frames[from - 1].sub == inner.sub))
+    --from;
+  if (from <= 1) return {};
+  std::string out;
+  for (; from < frames.size(); ++from) {
+    if (!frames[from].calls) continue;
+    const std::string& what = frames[from].calls->what;
+    out += what.substr(0, what.find(" [")) + " → ";
+  }
+  return out.empty() ? out : ", in a circle: " + out + "…";
+}
+
 }  // namespace
 
 // `100` → o100, `pocket` → o<pocket>.
@@ -173,7 +189,8 @@ bool Interpreter::Impl::push_frame(Frame frame, std::string what,
   if (static_cast<int>(frames_.size()) > options_.limits.max_depth) {
     report("call_depth", {0, block_->length},
            "more than " + std::to_string(options_.limits.max_depth) +
-               " calls inside each other; does the recursion end?");
+               " calls inside each other" + circle_of_calls(frames_) +
+               "; does the recursion end?");
     statistics_.limit_reached = true;
     stop();
     return false;

@@ -94,6 +94,27 @@ std::string programs_text(const RunReport& report) {
   return out + "; ";
 }
 
+// What a waiver or the baseline has accepted, so that nobody takes a pass for more than it is.
+std::string accepted_text(const RunReport& report, std::size_t most) {
+  std::string out;
+  std::size_t waived = 0, old = 0;
+  for (const Accepted& a : report.accepted) {
+    if (a.baseline) {
+      ++old;
+    } else if (++waived <= most) {
+      const std::string at = a.message.span ? a.message.span.place() + ": " : std::string();
+      out += "  - " + printable(at + a.message.kind + ": " + a.message.message) +
+             "\n    waived: " + printable(a.reason) + "\n";
+    }
+  }
+  if (waived > most) out += "  - … and " + std::to_string(waived - most) + " more\n";
+  if (old > 0) out += "  - " + plural(old, "finding") + " of the baseline\n";
+  if (report.baseline_gone && *report.baseline_gone > 0)
+    out += "  - " + plural(*report.baseline_gone, "finding") + " of the baseline " +
+           (*report.baseline_gone == 1 ? "is" : "are") + " gone\n";
+  return out.empty() ? out : "accepted:\n" + out + "\n";
+}
+
 std::string summary_text(const RunReport& report, const std::vector<Message>& all,
                          const HumanOptions& options) {
   const sim::Summary& s = report.summary;
@@ -107,7 +128,9 @@ std::string summary_text(const RunReport& report, const std::vector<Message>& al
   if (options.style.color) out += verdict_paint(s.verdict);
   out += sim::to_string(s.verdict);
   if (options.style.color) out += "\x1b[0m";
-  out += " (" + plural(errors, "error") + ", " + plural(warnings, "warning") + ")\n";
+  out += " (" + plural(errors, "error") + ", " + plural(warnings, "warning");
+  if (!report.accepted.empty()) out += "; " + std::to_string(report.accepted.size()) + " accepted";
+  out += ")\n";
   if (options.quiet) return out;
 
   if (report.units.size() > 1)
@@ -192,6 +215,7 @@ std::string to_human(const RunReport& report, const HumanOptions& options) {
     if (all.size() > options.most)
       out += "… and " + plural(all.size() - options.most, "more message") +
              "; --format json has them all\n\n";
+    out += accepted_text(report, options.most);
   }
   return harmless(out + summary_text(report, all, options));
 }

@@ -14,6 +14,7 @@ std::string to_json(const RunReport& report) {
   out["summary"] = summary_item(report);
   out["unchecked"] = unchecked_items(report);
   out["findings"] = std::move(findings);
+  out["accepted"] = accepted_items(report);
   out.update(tail_items(report));
   return json_text(out, 2);
 }

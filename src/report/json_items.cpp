@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "report/accept.h"
 #include "report/messages.h"
 
 namespace aircut::report {
@@ -61,7 +62,8 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-Json finding(const sim::Finding& f, const std::string& program, const RunReport& report) {
+Json finding(const sim::Finding& f, const Diagnostic& text, const std::string& program,
+             const RunReport& report) {
   Json points = Json::array();
   for (const Vec3& p : f.points) points.push_back(vector3(p));
   return {{"id", f.id},
@@ -101,10 +103,11 @@ Json finding(const sim::Finding& f, const std::string& program, const RunReport&
           {"unresolved", f.unresolved},
           {"makes_unknown", f.makes_unknown},
           {"remedy", utf8(f.remedy)},
-          {"picture", utf8(f.picture)}};
+          {"picture", utf8(f.picture)},
+          {"fingerprint", fingerprint_of(text, program, &f, report.folder)}};
 }
 
-Json diagnostic(const Diagnostic& d, const std::string& program) {
+Json diagnostic(const Diagnostic& d, const std::string& program, const std::string& fingerprint) {
   Json notes = Json::array();
   for (const Note& note : d.notes)
     notes.push_back({{"label", utf8(note.label)}, {"text", utf8(note.text)}});
@@ -113,7 +116,8 @@ Json diagnostic(const Diagnostic& d, const std::string& program) {
           {"message", utf8(d.message)},
           {"program", utf8(program)},
           {"place", place(d.span)},
-          {"notes", notes}};
+          {"notes", notes},
+          {"fingerprint", fingerprint}};
 }
 
 Json programs(const RunReport& report) {
@@ -156,6 +160,7 @@ Json first_items(const RunReport& report) {
 
 Json verdict_items(const RunReport& report) {
   return {{"verdict", sim::to_string(report.summary.verdict)},
+          {"cause", cause_of(report)},
           {"interrupted", report.summary.interrupted}};
 }
 
@@ -163,8 +168,21 @@ Json unchecked_items(const RunReport& report) { return texts(unchecked(report));
 
 void each_finding(const RunReport& report, const std::function<void(Json)>& tell) {
   for (const Message& message : messages(report, Take::rows))
-    tell(message.finding ? finding(*message.finding, message.program, report)
-                         : diagnostic(message.text, message.program));
+    tell(message.finding
+             ? finding(*message.finding, message.text, message.program, report)
+             : diagnostic(message.text, message.program,
+                          fingerprint_of(message.text, message.program, nullptr, report.folder)));
+}
+
+Json accepted_items(const RunReport& report) {
+  Json out = Json::array();
+  for (const Accepted& a : report.accepted) {
+    Json row = diagnostic(a.message, a.program, a.fingerprint);
+    row["reason"] = utf8(a.reason);
+    row["by"] = a.baseline ? "baseline" : "waiver";
+    out.push_back(std::move(row));
+  }
+  return out;
 }
 
 Json summary_item(const RunReport& report) {
@@ -175,6 +193,7 @@ Json summary_item(const RunReport& report) {
   return {{"errors", counts[Severity::error]},
           {"warnings", counts[Severity::warning]},
           {"infos", counts[Severity::info]},
+          {"accepted", report.accepted.size()},
           {"findings_dropped", s.findings_dropped},
           {"program_refused", s.program_refused},
           {"blocks", s.blocks},
@@ -190,7 +209,12 @@ Json tail_items(const RunReport& report) {
                                  {"high", joint.high * scale},
                                  {"unit", joint.rotary ? "deg" : "mm"}};
   }
-  return {{"programs", programs(report)},
+  Json waivers = Json::array();
+  for (const Waiver& w : report.waivers)
+    waivers.push_back({{"waiver", utf8(w.text)}, {"reason", utf8(w.reason)}, {"used", w.used}});
+  return {{"waivers", waivers},
+          {"baseline_gone", or_null(report.baseline_gone)},
+          {"programs", programs(report)},
           {"timing",
            {{"cycle_time_s", s.cycle_time},
             {"feed_s", s.feed_time},

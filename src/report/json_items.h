@@ -12,13 +12,15 @@ namespace aircut::report {
 using Json = nlohmann::ordered_json;
 
 Json first_items(const RunReport& report);    ///< schema, aircut
-Json verdict_items(const RunReport& report);  ///< verdict, interrupted
+Json verdict_items(const RunReport& report);  ///< verdict, cause, interrupted
 Json head_items(const RunReport& report);     ///< inputs, machine, checks, settings
 Json unchecked_items(const RunReport& report);
 /// Diagnostics, then findings; each as an object.
 void each_finding(const RunReport& report, const std::function<void(Json)>& tell);
 Json summary_item(const RunReport& report);
-Json tail_items(const RunReport& report);  ///< programs, timing, extents, collision, outputs
+Json accepted_items(const RunReport& report);
+Json tail_items(
+    const RunReport& report);  ///< waivers, programs, timing, extents, collision, outputs
 
 /// The text, ending with a line end. It is safe inside a page's <script> too: `<` is escaped.
 /// `indent` -1: on one line.

@@ -72,6 +72,19 @@ bool fails(const Message& message, const RunReport& report) {
   return report.fail_on && message.text.severity >= *report.fail_on;
 }
 
+std::string cause_of(const RunReport& report) {
+  if (report.summary.interrupted) return "interrupted";
+  switch (report.summary.verdict) {
+    case sim::Verdict::pass:
+      return "ok";
+    case sim::Verdict::fail:
+      return "findings";
+    case sim::Verdict::unknown:
+      break;
+  }
+  return report.unknown_cause.empty() ? "unchecked" : report.unknown_cause;
+}
+
 std::vector<std::string> unchecked_besides_findings(const RunReport& report) {
   std::vector<std::string> out = report.summary.unchecked;
   const auto told = [](const std::string& what) {

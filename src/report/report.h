@@ -28,6 +28,26 @@ struct Unit {
   std::uint64_t blocks = 0, moves = 0;
   std::vector<std::string> unchecked;
   std::size_t first = 0, count = 0;  ///< range in RunReport::diagnostics
+  bool limit_reached = false;        ///< of the interpreter
+};
+
+/// What a user accepts (--waive), and why.
+struct Waiver {
+  std::string kind;
+  std::string file;        ///< as messages name it, or the end of that after a `/`; empty: any
+  std::uint32_t line = 0;  ///< 0: any
+  std::string reason;
+  std::string text;      ///< as written
+  std::size_t used = 0;  ///< messages that it has accepted
+};
+
+/// A message that a waiver or a baseline has accepted. It fails nothing.
+struct Accepted {
+  Diagnostic message;
+  std::string program;
+  std::string reason;
+  std::string fingerprint;
+  bool baseline = false;  ///< it was in an earlier report
 };
 
 /// Everything that a run ends with.
@@ -42,16 +62,30 @@ struct RunReport {
   sim::Summary summary;
   std::vector<std::string> joint_names;
   std::vector<bool> joint_rotary;
-  std::vector<std::string> outputs;                   ///< relative to the output folder
-  std::vector<Unit> units;                            ///< empty when there was one program
+  std::vector<std::string> outputs;          ///< relative to the output folder
+  std::vector<Unit> units;                   ///< empty when there was one program
+  std::vector<Accepted> accepted;            ///< not among diagnostics and findings
+  std::vector<Waiver> waivers;               ///< all that were given
+  std::optional<std::size_t> baseline_gone;  ///< of the baseline, what was not found again
+  std::string folder;         ///< where paths in fingerprints begin, absolute; empty: as written
+  std::string unknown_cause;  ///< `input`, `limit`, `usage`, `output`; empty: something unchecked
   std::optional<Severity> fail_on = Severity::error;  ///< from here on the verdict is `fail`
 };
+
+/// Why the exit code is what it is: ok, findings, unchecked, limit, input, usage, output,
+/// interrupted.
+std::string cause_of(const RunReport& report);
 
 /// schema 1; one document, keys in a fixed order, ends with a line end.
 std::string to_json(const RunReport& report);
 /// The same items, one per line; the last is the summary, without which the rest is not to be
 /// trusted.
 std::string to_jsonl(const RunReport& report);
+/// Its parts, for messages that are written as they happen: the head; what one program gives (its
+/// inputs too, if `with_inputs`); the summary.
+std::string jsonl_head(const RunReport& report);
+std::string jsonl_messages(const RunReport& report, bool with_inputs);
+std::string jsonl_summary(const RunReport& report);
 
 /// A finding as a message: excerpt, times, joints, state, remedy.
 Diagnostic to_diagnostic(const sim::Finding& finding, const RunReport& report);

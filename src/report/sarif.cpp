@@ -1,60 +1,26 @@
 // SARIF 2.1.0: one run; a rule is a kind of message with its long text, a result is a message.
 //
-// Code hosts tell an old result from a new one by its fingerprint. Ours must survive lines that are
-// put in above it and renumbered blocks, so it is a hash of what the message is about and not of
-// where it stands: kind, file, the block without its N word, the word underlined, the bodies or the
-// joint; then the how-manieth of these in the file, since programs repeat themselves.
+// Code hosts tell an old result from a new one by its fingerprint (fingerprint.cpp) and, since
+// programs repeat themselves, by how many of the same came before.
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 
+#include "report/accept.h"
 #include "report/json_items.h"
 #include "report/messages.h"
+#include "report/paths.h"
 
 namespace aircut::report {
 
 namespace {
-
-namespace fs = std::filesystem;
-
-// A relative reference of RFC 3986: what is not unreserved or a slash is percent-encoded.
-std::string uri_of(const std::string& path, const std::string& folder) {
-  fs::path relative = fs::path(path).lexically_normal();
-  if (relative.is_absolute() && !folder.empty()) {
-    const fs::path inside = relative.lexically_relative(fs::path(folder).lexically_normal());
-    if (!inside.empty() && *inside.begin() != "..") relative = inside;
-  }
-  constexpr const char* digits = "0123456789ABCDEF";
-  std::string out = relative.is_absolute() ? "file://" : "";
-  for (const char c : relative.generic_string()) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool plain_letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-                              (c >= '0' && c <= '9') ||
-                              std::string_view("-._~/").find(c) != std::string_view::npos;
-    if (plain_letter)
-      out += c;
-    else
-      out += {'%', digits[byte >> 4], digits[byte & 15]};
-  }
-  return out;
-}
-
-// The block's text without blanks and N word.
-std::string block_text(const SourceSpan& span) {
-  std::string out;
-  for (const char c : span.line_text())
-    if (c != ' ' && c != '\t') out += c;
-  if (!out.empty() && (out[0] == 'N' || out[0] == 'n'))
-    out.erase(0, std::min(out.find_first_not_of("0123456789.", 1), out.size()));
-  return out;
-}
 
 class Writer {
  public:
   Writer(const RunReport& report, const SarifOptions& options)
       : report_(report), options_(options), all_(messages(report, Take::rows)) {
     for (const Message& message : all_) rules_.emplace(message.text.kind, 0);
+    for (const Accepted& a : report_.accepted) rules_.emplace(a.message.kind, 0);
     std::size_t index = 0;
     for (auto& [kind, place] : rules_) place = index++;
   }
@@ -62,7 +28,14 @@ class Writer {
   Json document() {
     Json results = Json::array();
     for (std::size_t i = 0; i < std::min(all_.size(), options_.most); ++i)
-      results.push_back(result(all_[i]));
+      results.push_back(result(all_[i], hash_of(all_[i])));
+    for (std::size_t i = 0; i < report_.accepted.size() && results.size() < options_.most; ++i) {
+      const Accepted& a = report_.accepted[i];
+      Json row = result({a.message, a.program, nullptr, false}, a.fingerprint);
+      row["suppressions"] =
+          Json::array({{{"kind", "external"}, {"justification", printable(a.reason)}}});
+      results.push_back(std::move(row));
+    }
     Json run = {
         {"tool",
          {{"driver", {{"name", "aircut"}, {"version", report_.version}, {"rules", rules()}}}}},
@@ -137,28 +110,22 @@ class Writer {
     return out;
   }
 
-  std::string fingerprint(const Message& message) {
-    const SourceSpan& span = message.text.span;
-    std::string about = message.text.kind + '\0';
-    about += uri_of(span ? span.text->name() : message.program, options_.folder) + '\0';
-    if (span) about += block_text(span) + '\0' + std::string(span.covered()) + '\0';
-    if (const sim::Finding* f = message.finding)
-      about += f->body_a + '\0' + f->body_b + '\0' + f->joint + '\0';
-    const std::string hash = sha256(about).substr(0, 32);
-    return hash + ":" + std::to_string(++seen_[hash]);
+  std::string hash_of(const Message& message) const {
+    return fingerprint_of(message.text, message.program, message.finding, options_.folder);
   }
 
-  Json result(const Message& message) {
+  Json result(const Message& message, const std::string& hash) {
     const Diagnostic& d = message.text;
     std::string text = printable(d.message);
     for (const Note& note : d.notes)
       if (note.label == "help") text += ". Help: " + printable(note.text);
-    Json out = {{"ruleId", d.kind},
-                {"ruleIndex", rules_.at(d.kind)},
-                {"level", level(d.severity)},
-                {"message", {{"text", text}}},
-                {"locations", locations(message)},
-                {"partialFingerprints", {{"aircutBlock/v1", fingerprint(message)}}}};
+    Json out = {
+        {"ruleId", d.kind},
+        {"ruleIndex", rules_.at(d.kind)},
+        {"level", level(d.severity)},
+        {"message", {{"text", text}}},
+        {"locations", locations(message)},
+        {"partialFingerprints", {{"aircutBlock/v1", hash + ":" + std::to_string(++seen_[hash])}}}};
     if (d.span && d.span.calls) out["relatedLocations"] = callers(d.span);
     if (const sim::Finding* f = message.finding)
       out["properties"] = {{"episode", f->episode},

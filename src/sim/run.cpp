@@ -16,7 +16,7 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
                       plan::Planner& planner, Simulator& simulator, const RunOptions& options) {
   bool moving = true;  // false once nothing can follow; then only the text is checked on
   SourceSpan last;
-  bool interrupted = false;
+  bool interrupted = false, out_of_time = false;
 
   const auto drain = [&] {
     while (auto segment = planner.take()) {
@@ -26,6 +26,7 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
         simulator.not_checked(from_line_on(
             last, "the limit of simulated time is reached (" + shortest(options.max_time) + " s)"));
         moving = false;
+        out_of_time = true;
         return;
       }
       simulator.step(*segment);
@@ -72,6 +73,7 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
 
   Simulator::Result result = simulator.finish();
   result.summary.interrupted = interrupted;
+  result.summary.limit_reached = out_of_time;
   result.summary.program_refused = diagnostics.errors() > 0;
   result.summary.blocks = interpreter.statistics().blocks;
   return result;

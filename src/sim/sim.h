@@ -161,6 +161,7 @@ struct Summary {
 
   std::vector<std::string> unchecked;  ///< what was not checked, in words
   bool interrupted = false;
+  bool limit_reached = false;    ///< of simulated time
   bool program_refused = false;  ///< the interpreter refused a block
 };
 
