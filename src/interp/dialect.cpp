@@ -68,11 +68,17 @@ const DialectTraits& traits_of(Dialect dialect) {
 
 std::vector<std::span<const CodeRule>> layers_of(Dialect dialect, bool lathe) {
   if (dialect == Dialect::linuxcnc) return {linuxcnc_rows()};
-  std::vector<std::span<const CodeRule>> layers = {fanuc_rows(),
-                                                   lathe ? fanuc_lathe_rows() : fanuc_mill_rows()};
+  std::vector<std::span<const CodeRule>> layers = {fanuc_rows()};
+  if (lathe) {
+    layers.push_back(fanuc_lathe_rows());
+  } else {
+    layers.push_back(fanuc_mill_rows());
+    layers.push_back(fanuc_mill_cycle_rows());
+  }
   if (dialect == Dialect::haas) {
     layers.push_back(haas_rows());
     layers.push_back(lathe ? haas_lathe_rows() : haas_mill_rows());
+    if (!lathe) layers.push_back(haas_mill_cycle_rows());
   }
   return layers;
 }

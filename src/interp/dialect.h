@@ -42,9 +42,11 @@ std::vector<std::span<const CodeRule>> layers_of(Dialect dialect, bool lathe);
 
 /// The rows that each dialect brings (code_table.cpp, fanuc_codes.cpp, haas_codes.cpp).
 std::span<const CodeRule> linuxcnc_rows();
-std::span<const CodeRule> fanuc_rows();        ///< mills and lathes
-std::span<const CodeRule> fanuc_mill_rows();   ///< machining centres
-std::span<const CodeRule> fanuc_lathe_rows();  ///< turning centres, G-code system A
+std::span<const CodeRule> fanuc_rows();             ///< mills and lathes
+std::span<const CodeRule> fanuc_mill_rows();        ///< machining centres
+std::span<const CodeRule> fanuc_lathe_rows();       ///< turning centres, G-code system A
+std::span<const CodeRule> fanuc_mill_cycle_rows();  ///< fanuc_cycle_rows.cpp
+std::span<const CodeRule> haas_mill_cycle_rows();
 std::span<const CodeRule> haas_rows();
 std::span<const CodeRule> haas_mill_rows();
 std::span<const CodeRule> haas_lathe_rows();

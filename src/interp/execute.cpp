@@ -18,8 +18,7 @@ std::uint32_t letters_of(const char* words) {
 }
 
 bool is_cycle(const CodeRule& rule) {
-  return rule.group == ModalGroup::motion && rule.code >= 730 && rule.code <= 890 &&
-         rule.code != 760 && rule.code != 800;
+  return rule.handler == canned_cycle || rule.handler == fanuc_cycle;
 }
 
 }  // namespace
@@ -276,7 +275,10 @@ void BlockExecutor::perform(const Item& item) {
                "only control points (G5.2 lines) may stand between G5.2 and G5.3");
     return;
   }
-  if (rule.group == ModalGroup::motion && !is_cycle(rule)) run_.state.cycle.code = 0;
+  if (rule.group == ModalGroup::motion && !is_cycle(rule)) {
+    run_.state.cycle.code = 0;
+    run_.state.rigid_tapping = false;
+  }
   rule.handler(rule, run_);
   if (run_.ok() && rule.group == ModalGroup::motion) after_motion(rule);
 }

@@ -258,6 +258,7 @@ bool Interpreter::Impl::plain_move(Block& block) {
   s.tip = tip;
   s.motion = motion;
   s.cycle.code = 0;
+  s.rigid_tapping = false;
   s.spline.valid = false;
   idle_blocks_ = 0;
   return true;

@@ -30,7 +30,8 @@ struct CycleState {
   canon::Plane plane = canon::Plane::xy;       ///< when the group began
   canon::Unit unit = canon::Unit::millimetre;  ///< when its words were given
   double r = 0, z = 0, p = 0, q = 0, d = 0;
-  bool has_p = false, has_q = false, has_d = false;
+  bool has_r = false, has_z = false, has_p = false, has_q = false, has_d = false;
+  double i = 0, j = 0, k = 0;  ///< Fanuc: shift of G76 and G87. Haas: pecks of G73 and G83
 };
 
 /// Control point that a G5 without I J reflects.
@@ -83,7 +84,8 @@ struct ModalState {
 
   CompState comp;
   CycleState cycle;
-  double cycle_dwell = 0;  ///< last P of a cycle: G74 and G84 take it when they have none
+  bool rigid_tapping = false;  ///< M29: the taps of the next cycle turn with the feed
+  double cycle_dwell = 0;      ///< last P of a cycle: G74 and G84 take it when they have none
   SplineMemory spline;
   std::uint32_t nurbs_points = 0;  ///< control points collected since G5.2
   int nurbs_order = 3;

@@ -22,6 +22,11 @@ void nurbs_point(const CodeRule&, BlockRun&);
 void nurbs_end(const CodeRule&, BlockRun&);
 // cycles.cpp
 void canned_cycle(const CodeRule&, BlockRun&);
+// fanuc_cycles.cpp
+void fanuc_cycle(const CodeRule&, BlockRun&);
+void manual_cycle(const CodeRule&, BlockRun&);
+void rigid_tapping(const CodeRule&, BlockRun&);
+void hole_pattern(const CodeRule&, BlockRun&);
 // contour_turning.cpp
 void contour_turning(const CodeRule&, BlockRun&);
 // threading.cpp
@@ -91,6 +96,8 @@ bool apply_polar(BlockRun& run, double& x, double& y);
 /// coordinates, or nothing with an error. `rule` is that of G2 or G3.
 std::optional<PlanePoint> arc_centre(BlockRun& run, const CodeRule& rule, PlanePoint start,
                                      PlanePoint end);
+/// Fanuc: seconds of a dwell word in milliseconds.
+double dwell_seconds(const BlockRun& run, char letter);
 /// True when a feed is set for the move; else the error is recorded.
 bool feed_is_set(BlockRun& run, const CodeRule& rule);
 /// Makes `next`'s settings of work system `system` the ones in force, from the parameters.

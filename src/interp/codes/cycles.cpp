@@ -13,6 +13,7 @@
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
+#include "interp/codes/hole_motion.h"
 
 namespace aircut::interp {
 namespace {
@@ -20,10 +21,9 @@ namespace {
 constexpr double rounding = 1e-9;   // mm, of a level that was turned into machine coordinates
 constexpr int max_moves = 100'000;  // of one line, so that it can't fill the memory
 
-class Cycle {
+class Cycle : private HoleMotion {
  public:
-  Cycle(const CodeRule& rule, BlockRun& run)
-      : rule_(rule), run_(run), state_(run.state), axes_(axes_of(run.state.plane)) {}
+  Cycle(const CodeRule& rule, BlockRun& run) : HoleMotion(rule, run) {}
 
   void execute();
 
@@ -41,19 +41,7 @@ class Cycle {
   void tap();
   void bore_and_stop();
 
-  void move(bool is_rapid, double a, double b, double c, const char* what);
-  void rapid_to(double c, const char* what) { move(true, a_, b_, c, what); }
-  void feed(double c, const char* what) { move(false, a_, b_, c, what); }
-  void turn(canon::SpindleTurn turn);
-
-  const CodeRule& rule_;
-  BlockRun& run_;
-  ModalState& state_;
-  PlaneAxes axes_;
-  double a_ = 0, b_ = 0, c_ = 0;  // where the tip is
   double r_ = 0, z_ = 0, clear_ = 0;
-  int spindle_ = 0;
-  std::string suffix_;
 };
 
 bool Cycle::allowed() {
@@ -205,10 +193,6 @@ bool Cycle::count_moves(int repeats) {
 }
 
 void Cycle::execute() {
-  const AxisValues start = to_program(state_, state_.tip);
-  a_ = start[axes_.first];
-  b_ = start[axes_.second];
-  c_ = start[axes_.normal];
   if (!allowed()) return;
   if (!run_.has_axis_words())
     return run_.error("axis_word_missing", rule_, name_of(rule_) + " needs at least one axis word");
@@ -239,8 +223,7 @@ void Cycle::execute() {
 }
 
 void Cycle::repeat(int number, int repeats) {
-  suffix_ =
-      repeats > 1 ? ", hole " + std::to_string(number) + " of " + std::to_string(repeats) : "";
+  name_hole(number, repeats);
   double a = a_, b = b_;
   if (const auto value = run_.axis(axes_.first)) a = state_.incremental ? a_ + *value : *value;
   if (const auto value = run_.axis(axes_.second)) b = state_.incremental ? b_ + *value : *value;
@@ -263,7 +246,7 @@ void Cycle::body() {
       return bore_and_stop();
     case 820:
       drill(z_);
-      run_.emit(canon::Dwell{state_.cycle.p}, name_of(rule_) + " dwell" + suffix_);
+      dwell(state_.cycle.p);
       return rapid_to(clear_, "retract");
     case 850:
       drill(z_);
@@ -271,7 +254,7 @@ void Cycle::body() {
       return rapid_to(clear_, "retract");
     case 890:
       drill(z_);
-      run_.emit(canon::Dwell{state_.cycle.p}, name_of(rule_) + " dwell" + suffix_);
+      dwell(state_.cycle.p);
       return feed(clear_, "retract");
     default:
       drill(z_);
@@ -289,20 +272,10 @@ void Cycle::peck() {
   if (state_.cycle.has_d) clearance = state_.cycle.d;
   const double q = state_.cycle.q;
   int number = 1;
-  for (double depth = r_ - q; depth > z_; depth = r_ - ++number * q) {
-    feed(depth, "peck");
-    if (full) rapid_to(r_, "out of the hole");
-    rapid_to(depth + clearance, full ? "back down" : "chip break");
-  }
+  for (double depth = r_ - q; depth > z_; depth = r_ - ++number * q)
+    HoleMotion::peck(depth, full, r_, clearance);
   feed(z_, "peck");
   rapid_to(clear_, "retract");
-}
-
-void Cycle::turn(canon::SpindleTurn turn) {
-  canon::TurnSpindle command;
-  command.spindle = spindle_;
-  command.turn = turn;
-  run_.emit(command, name_of(rule_) + suffix_);
 }
 
 void Cycle::tap() {
@@ -316,7 +289,7 @@ void Cycle::tap() {
   feed(z_, "tap");
   turn(Turn::stop);
   turn(back);
-  run_.emit(canon::Dwell{state_.cycle.p}, name_of(rule_) + " dwell" + suffix_);
+  dwell(state_.cycle.p);
   feed(clear_, "back out");
   turn(Turn::stop);
   turn(forward);
@@ -327,32 +300,10 @@ void Cycle::tap() {
 void Cycle::bore_and_stop() {
   const canon::SpindleTurn before = state_.spindles[static_cast<std::size_t>(spindle_)].turn;
   drill(z_);
-  run_.emit(canon::Dwell{state_.cycle.p}, name_of(rule_) + " dwell" + suffix_);
+  dwell(state_.cycle.p);
   turn(canon::SpindleTurn::stop);
   rapid_to(clear_, "retract");
   turn(before);
-}
-
-void Cycle::move(bool is_rapid, double a, double b, double c, const char* what) {
-  AxisValues program = to_program(state_, state_.tip);
-  program[axes_.first] = a;
-  program[axes_.second] = b;
-  program[axes_.normal] = c;
-  const AxisValues start = state_.tip;
-  state_.tip = to_tip(state_, program);
-  for (const Axis axis : all_axes) {  // others stay to the last bit
-    const bool moves = axis == axes_.first || axis == axes_.second || axis == axes_.normal ||
-                       (state_.rotation != 0 && axis <= Axis::y);
-    if (!moves) state_.tip[axis] = start[axis];
-  }
-  a_ = a;
-  b_ = b;
-  c_ = c;
-  std::string expanded = name_of(rule_) + " " + what + suffix_;
-  if (is_rapid)
-    run_.emit(canon::Rapid{state_.tip}, std::move(expanded));
-  else
-    run_.emit(canon::LinearFeed{state_.tip}, std::move(expanded));
 }
 
 }  // namespace

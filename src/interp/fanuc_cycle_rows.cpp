@@ -1,0 +1,52 @@
+// Rows of the cycles of Fanuc-like controls.
+#include "interp/codes/codes.h"
+#include "interp/dialect.h"
+
+namespace aircut::interp {
+namespace {
+
+using G = ModalGroup;
+using P = Phase;
+constexpr AxisUse none = AxisUse::none, motion = AxisUse::motion, own = AxisUse::own;
+
+// clang-format off
+constexpr CodeRule mill[] = {
+    {'G', 730, G::motion,        P::motion,        motion, "RQPKL",   fanuc_cycle},
+    {'G', 740, G::motion,        P::motion,        motion, "RQPKL",   fanuc_cycle},
+    {'G', 760, G::motion,        P::motion,        motion, "RQPKLIJ", fanuc_cycle},
+    {'G', 810, G::motion,        P::motion,        motion, "RKL",     fanuc_cycle},
+    {'G', 820, G::motion,        P::motion,        motion, "RPKL",    fanuc_cycle},
+    {'G', 830, G::motion,        P::motion,        motion, "RQPKL",   fanuc_cycle},
+    {'G', 840, G::motion,        P::motion,        motion, "RQPKL",   fanuc_cycle},
+    {'G', 842, G::motion,        P::motion,        motion, "RPKL",    fanuc_cycle},
+    {'G', 843, G::motion,        P::motion,        motion, "RPKL",    fanuc_cycle},
+    {'G', 850, G::motion,        P::motion,        motion, "RKL",     fanuc_cycle},
+    {'G', 860, G::motion,        P::motion,        motion, "RKL",     fanuc_cycle},
+    {'G', 870, G::motion,        P::motion,        motion, "RQPKLIJ", fanuc_cycle},
+    {'G', 880, G::motion,        P::motion,        motion, "RPKL",    manual_cycle},
+    {'G', 890, G::motion,        P::motion,        motion, "RPKL",    fanuc_cycle},
+    {'M',  29, G::user,          P::spindle,       none,   "",        rigid_tapping},
+};
+
+constexpr CodeRule haas_mill[] = {
+    {'G', 120, G::non_modal,     P::non_modal,     own,    "DIKQL",   nullptr},
+    {'G', 130, G::non_modal,     P::non_modal,     own,    "DIKQL",   nullptr},
+    {'G', 700, G::non_modal,     P::non_modal,     own,    "IJL",     hole_pattern},
+    {'G', 710, G::non_modal,     P::non_modal,     own,    "IJKL",    hole_pattern},
+    {'G', 720, G::non_modal,     P::non_modal,     own,    "IJL",     hole_pattern},
+    {'G', 730, G::motion,        P::motion,        motion, "RQPLIJK", fanuc_cycle},
+    {'G', 740, G::motion,        P::motion,        motion, "RLJ",     fanuc_cycle},
+    {'G', 770, G::motion,        P::motion,        motion, "RQPLIJ",  fanuc_cycle},
+    {'G', 830, G::motion,        P::motion,        motion, "RQPLIJK", fanuc_cycle},
+    {'G', 840, G::motion,        P::motion,        motion, "RLJ",     fanuc_cycle},
+    {'G', 1500, G::non_modal,    P::non_modal,     own,    "PQRIJKDL", nullptr},
+    {'G', 1840, G::motion,       P::motion,        motion, "RLJ",     fanuc_cycle},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const CodeRule> fanuc_mill_cycle_rows() { return mill; }
+std::span<const CodeRule> haas_mill_cycle_rows() { return haas_mill; }
+
+}  // namespace aircut::interp
