@@ -52,6 +52,7 @@ bool Interpreter::Impl::follows_from_position(const Fault& fault, Block& block) 
 
 void Interpreter::Impl::remember_failure(const Block& block) {
   failed_ = true;
+  if (contour_frame_ >= 0) frames_[static_cast<std::size_t>(contour_frame_)].reading->failed = true;
   // Where the block would have led, as far as its words say it.
   AxisValues tip = unsure_.tip.value_or(state_.tip);
   AxisValues program = to_program(state_, tip);

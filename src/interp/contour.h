@@ -26,7 +26,8 @@ struct ContourPiece {
   PlanePoint start, end;
   PlanePoint centre;
   int turn = 0;
-  double feed = 0;  ///< of its F word, 0 without
+  double feed = 0;     ///< of its F word, 0 without
+  bool rapid = false;  ///< programmed with G0
 };
 
 using Contour = std::vector<ContourPiece>;

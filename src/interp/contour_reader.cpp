@@ -3,6 +3,7 @@
 // meaning of the coordinates is refused.
 #include "interp/contour_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "interp/codes/codes.h"
@@ -41,7 +42,15 @@ const CodeRule* motion_of(BlockRun& run) {
   return motion;
 }
 
-CornerWord corner_of(const BlockRun& run) {
+CornerWord corner_of(const BlockRun& run, const CodeRule& motion) {
+  if (run.session.options.dialect != Dialect::linuxcnc) {
+    // On a lathe of Fanuc R and C of a line are the corner at its end; the sign says which way the
+    // next move goes, which is known here.
+    if (motion.code > 10) return {};
+    if (run.has('R')) return {CornerWord::Kind::round, std::fabs(run.length('R'))};
+    if (run.has('C')) return {CornerWord::Kind::chamfer, std::fabs(run.length('C'))};
+    return {};
+  }
   if (const auto radius = run.number('A'); radius && *radius != 0)
     return {CornerWord::Kind::round, run.length('A')};
   if (const auto size = run.number('C'); size && *size != 0)
@@ -70,6 +79,9 @@ void ContourReader::read(BlockRun& run) {
   if (const auto z = run.axis(Axis::z)) end.u = state.incremental ? start.u + *z : *z;
   if (run.has('U')) end.v = start.v + run.length('U') * (state.lathe_diameter ? 0.5 : 1);
   if (run.has('W')) end.u = start.u + run.length('W');
+  if (run.has('A') && run.session.options.dialect != Dialect::linuxcnc)
+    return run.error("contour_error", 'A',
+                     "a line by its angle (A) can't be read here; give X and Z of its end");
   add(run, *motion, start, end);
   program[Axis::z] = end.u;
   program[Axis::x] = end.v;
@@ -81,6 +93,7 @@ void ContourReader::add(BlockRun& run, const CodeRule& rule, PlanePoint start, P
   piece.start = start;
   piece.end = end;
   piece.feed = feed_;
+  piece.rapid = rule.code == 0;
   if (rule.code >= 20 && !contour_.empty()) {
     const auto centre = arc_centre(run, rule, start, end);
     if (!centre) return;
@@ -92,7 +105,7 @@ void ContourReader::add(BlockRun& run, const CodeRule& rule, PlanePoint start, P
   }
   if (std::hypot(end.u - start.u, end.v - start.v) < 1e-9 && !contour_.empty()) return;
   contour_.push_back(piece);
-  corners_.push_back(corner_of(run));
+  corners_.push_back(corner_of(run, rule));
   lines_.push_back(run.block.line);
 }
 

@@ -14,6 +14,12 @@ void Interpreter::Impl::start_contour(const FlowRequest& request, const CodeRule
   const Place place = block_->find('Q') ? block_->find('Q')->place : Place{0, block_->length};
   if (contour_frame_ >= 0)
     return report("contour_error", place, "a contour can't be cut within another contour");
+  auto reading = std::make_unique<ContourReading>();
+  reading->cycle = *block_;
+  reading->span = span();
+  reading->rule = &rule;
+  reading->before = state_;
+  if (request.is_range) return start_contour_range(request, std::move(reading));
   file = find_file_with_sub(label);
   if (!file) file = open_sub_file(label, place);
   if (!file) return;
@@ -21,17 +27,50 @@ void Interpreter::Impl::start_contour(const FlowRequest& request, const CodeRule
   FlowEntry& sub = file->flow->entries[static_cast<std::size_t>(at)];
   if (sub.problem_kind) return report(sub.problem_kind, place, sub.problem);
   if (!sub.passed && file == frames_.front().file) sub.called_ahead = true;
-  auto reading = std::make_unique<ContourReading>();
-  reading->cycle = *block_;
-  reading->span = span();
-  reading->rule = &rule;
-  reading->before = state_;
   const std::vector<double> no_arguments;
   if (!enter_sub(*file, at, &no_arguments, name_of(rule) + " contour o" + label)) return;
   frames_.back().reading = std::move(reading);
   contour_frame_ = static_cast<int>(frames_.size()) - 1;
   state_.motion = 0;
   state_.tip = request.contour_start;
+}
+
+// Blocks of the same program; variables are those of the cycle's own level.
+void Interpreter::Impl::start_contour_range(const FlowRequest& request,
+                                            std::unique_ptr<ContourReading> reading) {
+  auto call = std::make_shared<CallFrame>();
+  call->site = span();
+  call->what = name_of(*reading->rule) + " contour";
+  reading->last = request.target;
+  reading->jump_behind = request.jump_behind;
+  Frame frame;
+  frame.file = frames_.back().file;
+  frame.at = request.first.begin;
+  frame.line = request.first.line - 1;
+  frame.calls = std::move(call);
+  frame.reading = std::move(reading);
+  frames_.push_back(std::move(frame));
+  contour_frame_ = static_cast<int>(frames_.size()) - 1;
+  state_.motion = 0;
+  state_.tip = request.contour_start;
+}
+
+// True when the last block of a range has been read.
+bool Interpreter::Impl::leave_contour_range() {
+  if (contour_frame_ < 0 || contour_frame_ + 1 != static_cast<int>(frames_.size())) return false;
+  const Frame& frame = frames_.back();
+  if (!frame.reading->last || frame.at <= frame.reading->last->begin) return false;
+  std::unique_ptr<ContourReading> reading = std::move(frames_.back().reading);
+  frames_.pop_back();
+  span_valid_ = false;
+  if (reading->jump_behind) {
+    Frame& program = frames_.back();
+    program.at = reading->last->after;
+    program.line = reading->last->line;
+    program.last = nullptr;
+  }
+  finish_contour(std::move(reading));
+  return true;
 }
 
 // In place of execute_words while a contour is read.

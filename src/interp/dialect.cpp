@@ -71,6 +71,7 @@ std::vector<std::span<const CodeRule>> layers_of(Dialect dialect, bool lathe) {
   std::vector<std::span<const CodeRule>> layers = {fanuc_rows()};
   if (lathe) {
     layers.push_back(fanuc_lathe_rows());
+    layers.push_back(fanuc_lathe_cycle_rows());
   } else {
     layers.push_back(fanuc_mill_rows());
     layers.push_back(fanuc_mill_cycle_rows());

@@ -46,6 +46,7 @@ std::span<const CodeRule> fanuc_rows();             ///< mills and lathes
 std::span<const CodeRule> fanuc_mill_rows();        ///< machining centres
 std::span<const CodeRule> fanuc_lathe_rows();       ///< turning centres, G-code system A
 std::span<const CodeRule> fanuc_mill_cycle_rows();  ///< fanuc_cycle_rows.cpp
+std::span<const CodeRule> fanuc_lathe_cycle_rows();
 std::span<const CodeRule> haas_mill_cycle_rows();
 std::span<const CodeRule> haas_rows();
 std::span<const CodeRule> haas_mill_rows();

@@ -190,6 +190,7 @@ bool BlockExecutor::check_axes() {
   if (present.empty()) return true;
   for (const Axis axis : all_axes) {
     if (present.has(axis) || !run_.has(letter(axis))) continue;
+    if (run_.has_increments() && axis >= Axis::u) continue;
     std::string known;
     for (const Axis other : all_axes)
       if (present.has(other)) known += std::string(known.empty() ? "" : " ") + letter(other);
@@ -266,6 +267,7 @@ bool BlockExecutor::check_words() {
 void BlockExecutor::perform(const Item& item) {
   if (!item.rule) {
     if (item.letter == 'F') return feed_word(run_);
+    if (item.letter == 'S' && own_ && own_->handler == speed_limit) return;
     if (item.letter == 'S') return speed_word(run_);
     return tool_word(run_);
   }
@@ -278,6 +280,7 @@ void BlockExecutor::perform(const Item& item) {
   if (rule.group == ModalGroup::motion && !is_cycle(rule)) {
     run_.state.cycle.code = 0;
     run_.state.rigid_tapping = false;
+    if (rule.handler != single_pass) run_.state.turning.code = 0;
   }
   rule.handler(rule, run_);
   if (run_.ok() && rule.group == ModalGroup::motion) after_motion(rule);

@@ -28,6 +28,26 @@ constexpr CodeRule mill[] = {
     {'M',  29, G::user,          P::spindle,       none,   "",        rigid_tapping},
 };
 
+constexpr CodeRule lathe[] = {
+    {'G', 320, G::motion,        P::motion,        motion, "QR",      lathe_thread},
+    {'G', 330, G::motion,        P::motion,        motion, "QR",      lathe_thread},
+    {'G', 340, G::motion,        P::motion,        motion, "K",       nullptr},
+    {'G', 500, G::non_modal,     P::non_modal,     own,    "",        speed_limit},
+    {'G', 700, G::non_modal,     P::non_modal,     own,    "PQ",      lathe_roughing},
+    {'G', 710, G::non_modal,     P::non_modal,     own,    "PQRD",    lathe_roughing},
+    {'G', 720, G::non_modal,     P::non_modal,     own,    "PQRD",    lathe_roughing},
+    {'G', 730, G::non_modal,     P::non_modal,     own,    "PQR",     lathe_roughing},
+    {'G', 740, G::non_modal,     P::non_modal,     own,    "PQR",     lathe_groove},
+    {'G', 750, G::non_modal,     P::non_modal,     own,    "PQR",     lathe_groove},
+    {'G', 760, G::non_modal,     P::non_modal,     own,    "PQRKDIA", lathe_thread_cycle},
+    {'G', 900, G::motion,        P::motion,        motion, "R",       single_pass},
+    {'G', 920, G::motion,        P::motion,        motion, "R",       single_pass},
+    {'G', 940, G::motion,        P::motion,        motion, "R",       single_pass},
+    {'G', 960, G::spindle_mode,  P::spindle_mode,  none,   "",        lathe_surface_speed},
+    {'G', 980, G::feed_mode,     P::feed_mode,     none,   "",        lathe_feed_mode},
+    {'G', 990, G::feed_mode,     P::feed_mode,     none,   "",        lathe_feed_mode},
+};
+
 constexpr CodeRule haas_mill[] = {
     {'G', 120, G::non_modal,     P::non_modal,     own,    "DIKQL",   nullptr},
     {'G', 130, G::non_modal,     P::non_modal,     own,    "DIKQL",   nullptr},
@@ -47,6 +67,7 @@ constexpr CodeRule haas_mill[] = {
 }  // namespace
 
 std::span<const CodeRule> fanuc_mill_cycle_rows() { return mill; }
+std::span<const CodeRule> fanuc_lathe_cycle_rows() { return lathe; }
 std::span<const CodeRule> haas_mill_cycle_rows() { return haas_mill; }
 
 }  // namespace aircut::interp

@@ -41,6 +41,8 @@ struct ContourReading {
   const CodeRule* rule = nullptr;
   ModalState before;
   ContourReader reader;
+  std::optional<BlockPlace> last;  ///< block with which a range of blocks ends
+  bool jump_behind = false;        ///< go on behind it
   bool failed = false;
 };
 
@@ -197,6 +199,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
 
   // ---- contours of turning cycles (contour_reading.cpp)
   void start_contour(const FlowRequest& request, const CodeRule& rule);
+  void start_contour_range(const FlowRequest& request, std::unique_ptr<ContourReading> reading);
+  bool leave_contour_range();
   void read_contour_block(Block& block);
   void finish_contour(std::unique_ptr<ContourReading> reading);
 

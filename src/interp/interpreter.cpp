@@ -148,6 +148,7 @@ bool Interpreter::Impl::is_percent_line(const ProgramFile& file, std::string_vie
 }
 
 void Interpreter::Impl::step() {
+  if (leave_contour_range()) return;
   const Frame& frame = frames_.back();
   if (frame.at >= frame.file->text->content().size()) return end_of_file();
   Block* block = fetch();

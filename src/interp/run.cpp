@@ -20,7 +20,15 @@ std::optional<int> BlockRun::integer(char letter, int least, int most, const cha
   return std::nullopt;
 }
 
+std::optional<double> BlockRun::increment(Axis which) const {
+  if (!has_increments() || which > Axis::z) return std::nullopt;
+  const char letter = which == Axis::x ? 'U' : which == Axis::y ? 'V' : 'W';
+  if (!has(letter)) return std::nullopt;
+  return which == Axis::x && state.lathe_diameter ? length(letter) / 2 : length(letter);
+}
+
 std::optional<double> BlockRun::axis(Axis which) const {
+  if (has_increments() && which >= Axis::u) return std::nullopt;
   const Word* word = block.find(letter(which));
   if (!word) return std::nullopt;
   if (is_rotary(which)) return word->number * radian_per_degree;

@@ -49,6 +49,9 @@ struct FlowRequest {
   std::vector<double> locals;         ///< #1-#33 of a macro call
   Place place;                        ///< for messages
   BlockPlace target;
+  BlockPlace first;          ///< contour: its first block, `target` is its last
+  bool is_range = false;     ///< contour: from `first` to `target`, not a sub
+  bool jump_behind = false;  ///< go on behind `target` when the contour is cut
   AxisValues contour_start;  ///< tip from which a contour begins
 };
 
@@ -117,6 +120,12 @@ class BlockRun {
   double block_count() const { return static_cast<double>(site_.block_number()); }
   /// An axis word's number in mm or rad, X halved in diameter mode; nothing without the word.
   std::optional<double> axis(Axis which) const;
+  /// Lathes of Fanuc and Haas: U, V and W are increments of X, Y and Z.
+  bool has_increments() const {
+    return session.options.lathe && session.options.dialect != Dialect::linuxcnc;
+  }
+  /// Such an increment in mm, U halved in diameter mode; nothing without the word.
+  std::optional<double> increment(Axis which) const;
 
   // ---- places
   Place place(char letter) const;

@@ -45,6 +45,11 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
 void Interpreter::Impl::start(const ParameterFile& file) {
   state_.unit = options_.start_unit;
   if (table_.dialect().motion_at_start) state_.motion = 0;
+  if (table_.dialect().macro_b && options_.lathe) {
+    state_.plane = canon::Plane::zx;
+    state_.lathe_diameter = true;
+    state_.feed_mode = canon::FeedMode::per_revolution;
+  }
   state_.tool = options_.tool_in_spindle;
   load_parameters(file);
   apply_settings();

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "canon/canon.h"
+#include "interp/contour.h"
 
 namespace aircut::interp {
 
@@ -32,6 +33,19 @@ struct CycleState {
   double r = 0, z = 0, p = 0, q = 0, d = 0;
   bool has_r = false, has_z = false, has_p = false, has_q = false, has_d = false;
   double i = 0, j = 0, k = 0;  ///< Fanuc: shift of G76 and G87. Haas: pecks of G73 and G83
+};
+
+/// What the cycles of Fanuc-like lathes keep from line to line; mm, X as radius.
+struct TurningState {
+  int code = 0;                  ///< G90, G92, G94 in force, 0 else
+  PlanePoint end;                ///< of it: Z and X
+  double taper = 0;              ///< of it: R
+  double depth = 0, escape = 0;  ///< G71 G72
+  PlanePoint pattern;            ///< G73: way along Z and X
+  int pattern_count = 0;
+  double groove_escape = 0;                                         ///< G74 G75
+  double thread_least = 0, thread_allowance = 0, thread_angle = 0;  ///< G76
+  int thread_finishing = 1;
 };
 
 /// Control point that a G5 without I J reflects.
@@ -84,6 +98,7 @@ struct ModalState {
 
   CompState comp;
   CycleState cycle;
+  TurningState turning;
   bool rigid_tapping = false;  ///< M29: the taps of the next cycle turn with the feed
   double cycle_dwell = 0;      ///< last P of a cycle: G74 and G84 take it when they have none
   SplineMemory spline;

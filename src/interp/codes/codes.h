@@ -27,6 +27,17 @@ void fanuc_cycle(const CodeRule&, BlockRun&);
 void manual_cycle(const CodeRule&, BlockRun&);
 void rigid_tapping(const CodeRule&, BlockRun&);
 void hole_pattern(const CodeRule&, BlockRun&);
+// lathe_single.cpp
+void single_pass(const CodeRule&, BlockRun&);
+void lathe_thread(const CodeRule&, BlockRun&);
+void lathe_feed_mode(const CodeRule&, BlockRun&);
+void speed_limit(const CodeRule&, BlockRun&);
+void lathe_surface_speed(const CodeRule&, BlockRun&);
+// lathe_grooving.cpp
+void lathe_groove(const CodeRule&, BlockRun&);
+void lathe_thread_cycle(const CodeRule&, BlockRun&);
+// lathe_roughing.cpp
+void lathe_roughing(const CodeRule&, BlockRun&);
 // contour_turning.cpp
 void contour_turning(const CodeRule&, BlockRun&);
 // threading.cpp
@@ -98,6 +109,10 @@ std::optional<PlanePoint> arc_centre(BlockRun& run, const CodeRule& rule, PlaneP
                                      PlanePoint end);
 /// Fanuc: seconds of a dwell word in milliseconds.
 double dwell_seconds(const BlockRun& run, char letter);
+/// True when the spindle turns; else the error is recorded.
+bool spindle_turns(BlockRun& run, const CodeRule& rule, int spindle);
+/// The F of the state as a command.
+void emit_feed(BlockRun& run);
 /// True when a feed is set for the move; else the error is recorded.
 bool feed_is_set(BlockRun& run, const CodeRule& rule);
 /// Makes `next`'s settings of work system `system` the ones in force, from the parameters.

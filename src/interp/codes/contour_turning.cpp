@@ -140,7 +140,7 @@ void ContourTurning::finish() {
     if (!with_allowance(last + (first - last) * (passes - i) / passes)) return;
     motion_.rapid(approach_.front().start, "to the start");
     motion_.rapid(approach_.front().end, "to the contour");
-    for (std::size_t k = 1; k < approach_.size(); ++k) motion_.feed(approach_[k], "contour");
+    for (std::size_t k = 1; k < approach_.size(); ++k) motion_.follow(approach_[k], "contour");
   }
 }
 

@@ -345,7 +345,13 @@ void FanucCycle::back_bore() {
 
 }  // namespace
 
-double dwell_seconds(const BlockRun& run, char letter) { return run.number_or(letter, 0) / 1000; }
+// Haas reads a P with a decimal point as seconds.
+double dwell_seconds(const BlockRun& run, char letter) {
+  const Word* word = run.block.find(letter);
+  if (!word) return 0;
+  const bool seconds = run.session.options.dialect == Dialect::haas && !word->no_point;
+  return seconds ? word->number : word->number / 1000;
+}
 
 void fanuc_cycle(const CodeRule& rule, BlockRun& run) { FanucCycle(rule, run).execute(); }
 

@@ -83,6 +83,12 @@ void feed_word(BlockRun& run) {
   if (value < 0) return run.error("word_value", 'F', "F, the feed, can't be negative");
   run.feed_given = true;
   state.feed = value;
+  emit_feed(run);
+}
+
+void emit_feed(BlockRun& run) {
+  const ModalState& state = run.state;
+  const double value = state.feed;
   canon::SetFeedRate rate;
   switch (state.feed_mode) {
     case canon::FeedMode::per_minute:

@@ -49,6 +49,8 @@ std::optional<AxisValues> machine_target(BlockRun& run) {
   return tip;
 }
 
+}  // namespace
+
 bool spindle_turns(BlockRun& run, const CodeRule& rule, int spindle) {
   if (run.state.spindles[static_cast<std::size_t>(spindle)].turn != canon::SpindleTurn::stop)
     return true;
@@ -56,8 +58,6 @@ bool spindle_turns(BlockRun& run, const CodeRule& rule, int spindle) {
             name_of(rule) + " needs a turning spindle; give M3 or M4 before");
   return false;
 }
-
-}  // namespace
 
 std::optional<AxisValues> target_of(BlockRun& run) {
   const ModalState& state = run.state;
@@ -68,6 +68,7 @@ std::optional<AxisValues> target_of(BlockRun& run) {
   if (state.rotation == 0 && !polar) {
     AxisValues tip = start;
     for (const Axis axis : all_axes) {
+      if (const auto by = run.increment(axis)) tip[axis] += *by;
       const auto value = run.axis(axis);
       if (!value) continue;
       tip[axis] = state.incremental ? tip[axis] + *value
@@ -76,16 +77,20 @@ std::optional<AxisValues> target_of(BlockRun& run) {
     return tip;
   }
   AxisValues program = to_program(state, start);
-  for (const Axis axis : all_axes)
+  for (const Axis axis : all_axes) {
+    if (const auto by = run.increment(axis)) program[axis] += *by;
     if (const auto value = run.axis(axis))
       program[axis] = state.incremental ? program[axis] + *value : *value;
+  }
   if (polar && !apply_polar(run, program[Axis::x], program[Axis::y])) return std::nullopt;
   AxisValues tip = to_tip(state, program);
   // What no word named stays exactly where it is.
-  const bool turned = run.has('X') || run.has('Y') || polar;
+  const bool turned =
+      run.has('X') || run.has('Y') || run.increment(Axis::x) || run.increment(Axis::y) || polar;
   for (const Axis axis : all_axes) {
     const bool in_plane = axis == Axis::x || axis == Axis::y;
-    if (in_plane ? !turned : !run.has(letter(axis))) tip[axis] = start[axis];
+    if (in_plane ? !turned : !run.has(letter(axis)) && !run.increment(axis))
+      tip[axis] = start[axis];
   }
   return tip;
 }

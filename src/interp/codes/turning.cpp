@@ -59,7 +59,7 @@ void TurningMotion::feed(PlanePoint end, const char* what) {
   run_.emit(canon::LinearFeed{run_.state.tip}, name_of(rule_) + " " + what);
 }
 
-void TurningMotion::feed(const ContourPiece& piece, const char* what) {
+void TurningMotion::follow(const ContourPiece& piece, const char* what) {
   if (piece.turn == 0) return feed(piece.end, what);
   // A mirror and the exchange of the two coordinates each turn the sense round.
   const bool other_way = (mirror_.u != mirror_.v) != (passes_ == Passes::along_x);
@@ -89,7 +89,7 @@ void TurningMotion::make(const CutterMove& move) {
   piece.end = move.end;
   piece.centre = move.centre;
   piece.turn = move.turn;
-  feed(piece, move.what);
+  follow(piece, move.what);
 }
 
 }  // namespace aircut::interp

@@ -24,7 +24,7 @@ class TurningMotion {
 
   void rapid(PlanePoint end, const char* what);
   void feed(PlanePoint end, const char* what);
-  void feed(const ContourPiece& piece, const char* what);
+  void follow(const ContourPiece& piece, const char* what);
   void thread(PlanePoint end, double per_revolution, int spindle, const char* what);
   void make(const CutterMove& move);
 
