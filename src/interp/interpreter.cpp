@@ -360,7 +360,7 @@ void Interpreter::Impl::execute_words(Block& block) {
       modal_macro_.reset();
       break;
     case FlowRequest::Kind::contour:
-      start_contour(run.flow, *run.motion_rule);
+      start_contour(run.flow, *run.flow.cycle);
       break;
   }
 }

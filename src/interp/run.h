@@ -49,10 +49,11 @@ struct FlowRequest {
   std::vector<double> locals;         ///< #1-#33 of a macro call
   Place place;                        ///< for messages
   BlockPlace target;
-  BlockPlace first;          ///< contour: its first block, `target` is its last
-  bool is_range = false;     ///< contour: from `first` to `target`, not a sub
-  bool jump_behind = false;  ///< go on behind `target` when the contour is cut
-  AxisValues contour_start;  ///< tip from which a contour begins
+  const CodeRule* cycle = nullptr;  ///< that asks for a contour
+  BlockPlace first;                 ///< contour: its first block, `target` is its last
+  bool is_range = false;            ///< contour: from `first` to `target`, not a sub
+  bool jump_behind = false;         ///< go on behind `target` when the contour is cut
+  AxisValues contour_start;         ///< tip from which a contour begins
 };
 
 /// M70, M71, M73: done once the block has succeeded, by the flow of control, which owns the levels.

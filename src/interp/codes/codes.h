@@ -107,6 +107,8 @@ bool apply_polar(BlockRun& run, double& x, double& y);
 /// coordinates, or nothing with an error. `rule` is that of G2 or G3.
 std::optional<PlanePoint> arc_centre(BlockRun& run, const CodeRule& rule, PlanePoint start,
                                      PlanePoint end);
+/// Fanuc: whether the word counts something in the cycle of the line, so that it is no length.
+bool is_count_of_cycle(const BlockRun& run, char letter);
 /// Fanuc: seconds of a dwell word in milliseconds.
 double dwell_seconds(const BlockRun& run, char letter);
 /// True when the spindle turns; else the error is recorded.

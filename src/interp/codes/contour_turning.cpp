@@ -41,6 +41,7 @@ void ask_for_contour(const CodeRule& rule, BlockRun& run) {
   const auto start = target_of(run);
   if (!start) return;
   run.flow.kind = FlowRequest::Kind::contour;
+  run.flow.cycle = &rule;
   run.flow.label = *label;
   run.flow.contour_start = *start;
 }

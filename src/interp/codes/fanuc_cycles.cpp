@@ -345,6 +345,28 @@ void FanucCycle::back_bore() {
 
 }  // namespace
 
+bool is_count_of_cycle(const BlockRun& run, char letter) {
+  if (letter != 'K' && letter != 'Q' && letter != 'R') return false;
+  const CodeRule* cycle = nullptr;
+  bool moves = false;
+  for (const Word& word : run.block.words) {
+    if (!word.rule) continue;
+    moves = moves || word.rule->group == ModalGroup::motion;
+    if (word.rule->handler == fanuc_cycle || word.rule->handler == lathe_roughing ||
+        word.rule->handler == lathe_groove || word.rule->handler == lathe_thread_cycle)
+      cycle = word.rule;
+  }
+  if (!cycle && !moves && run.state.cycle.code != 0)
+    cycle = run.session.table.find_g(run.state.cycle.code);
+  if (!cycle) return false;
+  if (cycle->handler == fanuc_cycle)
+    return letter == 'K' && run.session.options.dialect == Dialect::fanuc;
+  // Numbers of blocks, and the passes of G73; P and Q of the others are least increments.
+  if (cycle->handler == lathe_roughing)
+    return letter == 'Q' || (letter == 'R' && cycle->code == 730);
+  return letter == 'Q';
+}
+
 // Haas reads a P with a decimal point as seconds.
 double dwell_seconds(const BlockRun& run, char letter) {
   const Word* word = run.block.find(letter);

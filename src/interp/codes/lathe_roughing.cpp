@@ -66,6 +66,7 @@ void ask_for_contour(const CodeRule& rule, BlockRun& run) {
   if (places[1].begin < places[0].begin)
     return run.error("label_missing", 'Q', "the block of Q stands before the block of P");
   run.flow.kind = FlowRequest::Kind::contour;
+  run.flow.cycle = &rule;
   run.flow.contour_start = run.state.tip;
   run.flow.first = places[0];
   run.flow.target = places[1];

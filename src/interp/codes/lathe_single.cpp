@@ -34,9 +34,7 @@ double increments(const BlockRun& run, char letter) {
   if (!word) return 0;
   const double unit = run.state.unit_mm();
   const bool inch = run.state.unit == canon::Unit::inch;
-  // Q is scaled already as other lengths are, P and D are not.
-  const bool scaled = letter == 'Q' && !run.session.options.whole_units;
-  if (!word->no_point || scaled) return word->number * unit;
+  if (!word->no_point) return word->number * unit;
   return word->number * unit / (inch ? 10'000 : 1000);
 }
 
