@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "interp/codes/codes.h"
 #include "interp/dialect.h"
 #include "interp/impl.h"
 #include "interp/macro_expression.h"

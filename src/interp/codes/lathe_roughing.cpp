@@ -5,11 +5,11 @@
 //   * G71 P Q U W F      allowances: the contour moves by U/2 in X and by W in Z
 //   * G71 P Q U W D F    both in one line
 //
-// Pass n of G71 runs at the level d·n under the start point, from the start to the contour, out of
-// it at 45° by e, and back. The last pass follows the contour with its allowances. The contour must
-// neither go back along Z nor dip in X: pockets (type II) are refused. G73 follows the contour R
-// times, U and W nearer each time. All return to the start point. F, S and T in the contour act in
-// G70 only (here: F); radius compensation does not act.
+// G71 first moves the start point by the allowances too. Pass n runs at the level d·n under it, to
+// the contour, out of the cut at 45° by e, and back. The last pass follows the contour with its
+// allowances. The contour must neither go back along Z nor dip in X: pockets (type II) are refused.
+// G73 follows the contour R times, U and W nearer each time. All return to the start point. F, S
+// and T in the contour act in G70 only (here: F); radius compensation does not act.
 #include <algorithm>
 #include <cmath>
 
@@ -33,9 +33,7 @@ void keep_words(const CodeRule& rule, BlockRun& run) {
   if (rule.code == 730) {
     kept.pattern = {run.length('W', kept.pattern.u), run.length('U', kept.pattern.v)};
     if (!run.has('R')) return run.error("word_missing", rule, "G73 needs R: the number of passes");
-    const double count =
-        *run.number('R') *
-        (run.block.find('R')->no_point && !run.session.options.whole_units ? 1000 : 1);
+    const double count = *run.number('R');
     if (count < 1 || count > max_passes)
       return run.error("word_value", 'R', "R of G73, the number of passes, must be 1 or more");
     kept.pattern_count = static_cast<int>(std::lround(count));
@@ -53,10 +51,7 @@ void ask_for_contour(const CodeRule& rule, BlockRun& run) {
   if (!lathe_words_given(run, rule, false, false) || !feed_is_set(run, rule)) return;
   BlockPlace places[2];
   for (const char word : {'P', 'Q'}) {
-    const Word& number = *run.block.find(word);
-    // Block numbers have no unit; undo what the reader of lengths did to Q.
-    const bool scaled = word == 'Q' && number.no_point && !run.session.options.whole_units;
-    const auto n = std::lround(scaled ? number.text.number : number.number);
+    const auto n = std::lround(*run.number(word));
     const auto found = run.find_block(n);
     if (!found)
       return run.error("label_missing", word,
@@ -194,7 +189,9 @@ void LatheRoughing::rough() {
                           std::to_string(run_.contour->line_of(*back + 1)) +
                           "; pockets (type II) are not cut here, it must rise or fall all along");
   const PlanePoint left = allowance_of(run_, motion_, rule_.code == 720);
+  const PlanePoint finished = start_;
   body_ = shifted(body_, left.u, left.v);
+  start_ = {start_.u + left.u, start_.v + left.v};
   const double lowest = body_.front().start.v;
   if (lowest > start_.v + 1e-9 || body_.front().start.u > start_.u + 1e-6)
     return run_.error("contour_error", rule_,
@@ -203,16 +200,17 @@ void LatheRoughing::rough() {
   const double passes = (start_.v - lowest) / depth;
   if (passes > max_passes)
     return run_.error("limit_reached", rule_, "more than 20000 passes; use a larger depth");
+  motion_.rapid(start_, "to the allowance");
   for (int n = 1; n < passes - 1e-9; ++n) pass(start_.v - n * depth, kept.escape);
   const PlanePoint first = body_.front().start;
   if (approach_.rapid)
     motion_.rapid({start_.u, first.v}, "to the contour");
   else
     motion_.feed({start_.u, first.v}, "to the contour");
-  motion_.feed(first, "to the contour");
+  if (first.u < start_.u - 1e-9) motion_.feed(first, "to the contour");
   follow(false);
   if (body_.back().end.v < start_.v) motion_.rapid({body_.back().end.u, start_.v}, "out");
-  motion_.rapid(start_, "to the start");
+  motion_.rapid(finished, "to the start");
 }
 
 void LatheRoughing::pass(double level, double escape) {
