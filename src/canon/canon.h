@@ -95,7 +95,7 @@ struct SelectPlane {
 struct UseUnit {
   Unit unit = Unit::millimetre;
 };
-/// Work offset in force: system 1 (G54) … 9 (G59.3).
+/// Work offset in force: system 1 (G54) … 9 (G59.3), 100 + n: G54.1 Pn.
 struct WorkOffset {
   int system = 1;
   AxisValues offset;
@@ -107,6 +107,12 @@ struct WorkRotation {
 /// G92/G52 offset in force, as the reference prints it.
 struct G92Offset {
   AxisValues offset;
+};
+/// What mirror image, scaling and rotation (Fanuc: G51.1 G51 G68) make of the X Y Z words, before
+/// G92 offset and work offset: linear · program + shift, mm. Moves have it applied already.
+struct ProgramMap {
+  Mat3 linear = Mat3::Identity();
+  Vec3 shift = Vec3::Zero();
 };
 /// Added to the tip to give the controlled point.
 struct ToolLengthOffset {
@@ -176,6 +182,7 @@ struct WaitInput {
 };
 /// M100–M199 and remaps that are not NC: listed, never run.
 struct UserCode {
+  char letter = 'M';  ///< G: data setting (G10 L50)
   int code = 0;
   double p = 0, q = 0;
   bool has_p = false, has_q = false;
@@ -200,7 +207,7 @@ struct LogFile {
 
 using Action =
     std::variant<Rapid, LinearFeed, ArcFeed, SplineFeed, Dwell, SyncFeed, Probe, SetFeedMode,
-                 SetFeedRate, SelectPlane, UseUnit, WorkOffset, WorkRotation, G92Offset,
+                 SetFeedRate, SelectPlane, UseUnit, WorkOffset, WorkRotation, G92Offset, ProgramMap,
                  ToolLengthOffset, SetPathMode, SetNaiveCam, SetSpindleMode, SetSpindleSpeed,
                  TurnSpindle, OrientSpindle, SelectTool, ChangeTool, SetToolNumber, Coolant,
                  Override, DigitalOutput, AnalogOutput, WaitInput, UserCode, ProgramStop,

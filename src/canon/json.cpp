@@ -175,6 +175,15 @@ struct Fields {
     o.number("angle_deg", c.angle * degrees_per_radian);
   }
   void operator()(const G92Offset& c) const { motion("g92_offset", c.offset); }
+  void operator()(const ProgramMap& c) const {
+    name("program_map");
+    std::string rows;
+    for (int row = 0; row < 3; ++row)
+      rows +=
+          (row == 0 ? "[" : ",") + numbers({c.linear(row, 0), c.linear(row, 1), c.linear(row, 2)});
+    o.raw("linear", rows + "]");
+    o.raw("shift_mm", numbers({c.shift.x(), c.shift.y(), c.shift.z()}));
+  }
   void operator()(const ToolLengthOffset& c) const {
     motion("tool_offset", c.offset);
     if (c.tool != 0) o.integer("tool", c.tool);
@@ -246,6 +255,7 @@ struct Fields {
   }
   void operator()(const UserCode& c) const {
     name("user_code");
+    if (c.letter != 'M') o.text("letter", std::string(1, c.letter));
     o.integer("code", c.code);
     if (c.has_p) o.number("p", c.p);
     if (c.has_q) o.number("q", c.q);

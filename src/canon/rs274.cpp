@@ -262,6 +262,8 @@ struct Write {
     s.rotation = c.angle;
     s.line("SET_XY_ROTATION(" + four(c.angle * degrees_per_radian) + ")");
   }
+  // The reference has no such map; its coordinates are those behind it.
+  void operator()(const ProgramMap&) const {}
   void operator()(const G92Offset& c) const {
     s.g92_offset = c.offset;
     s.line("SET_G92_OFFSET(" + s.lengths(c.offset) + ")");

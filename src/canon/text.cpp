@@ -98,6 +98,16 @@ struct ToText {
     return "work_rotation " + tidy(c.angle * degrees_per_radian);
   }
   std::string operator()(const G92Offset& c) const { return "g92_offset" + axes(c.offset); }
+  std::string operator()(const ProgramMap& c) const {
+    if (c.linear == Mat3::Identity() && c.shift == Vec3::Zero()) return "program_map off";
+    std::string out = "program_map";
+    for (int row = 0; row < 3; ++row) {
+      out += std::string(" ") + letter(all_axes[static_cast<std::size_t>(row)]) + " =";
+      for (int column = 0; column < 3; ++column) out += ' ' + tidy(c.linear(row, column));
+      out += " + " + tidy(c.shift[row]);
+    }
+    return out;
+  }
   std::string operator()(const ToolLengthOffset& c) const { return "tool_offset" + axes(c.offset); }
   std::string operator()(const SetPathMode& c) const {
     std::string out = std::string("path ") + word(c.mode, path_words);
@@ -152,7 +162,7 @@ struct ToText {
            (known ? modes[c.mode] : std::to_string(c.mode).c_str()) + " timeout " + tidy(c.timeout);
   }
   std::string operator()(const UserCode& c) const {
-    std::string out = "user_code M" + std::to_string(c.code);
+    std::string out = std::string("user_code ") + c.letter + std::to_string(c.code);
     if (c.has_p) out += " P" + tidy(c.p);
     if (c.has_q) out += " Q" + tidy(c.q);
     return out;

@@ -206,11 +206,19 @@ const char* name_of(ModalGroup group) {
       return "user codes";
     case ModalGroup::macro_call:
       return "macro calls";
+    case ModalGroup::mirror:
+      return "mirror image";
+    case ModalGroup::scaling:
+      return "scaling";
+    case ModalGroup::turning:
+      return "rotation";
+    case ModalGroup::free:
+      return "codes of any group";
   }
   return "";
 }
 
-CodeTable::CodeTable(Dialect dialect, bool lathe) : dialect_(&traits_of(dialect)) {
+CodeTable::CodeTable(Dialect dialect, bool lathe) : dialect_(&traits_of(dialect)), lathe_(lathe) {
   for (const auto layer : layers_of(dialect, lathe))
     for (const CodeRule& rule : layer) {
       if (rule.letter == 'G') g_[static_cast<std::size_t>(rule.code)] = &rule;

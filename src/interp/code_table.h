@@ -38,7 +38,11 @@ enum class ModalGroup : unsigned char {
   coolant,
   override_,
   user,
-  macro_call
+  macro_call,
+  mirror,   ///< G50.1 G51.1
+  scaling,  ///< G50 G51
+  turning,  ///< G68 G69
+  free      ///< may stand beside any other code
 };
 const char* name_of(ModalGroup group);
 
@@ -101,6 +105,8 @@ class CodeTable {
   explicit CodeTable(Dialect dialect = Dialect::linuxcnc, bool lathe = false);
   /// What is special about the dialect that the rows are of.
   const DialectTraits& dialect() const { return *dialect_; }
+  /// A turning centre's table (Fanuc, Haas).
+  bool lathe() const { return lathe_; }
   /// The row of a G or M word, or null when there is no such code.
   const CodeRule* find(char letter, double number) const;
   const CodeRule* find_g(int code) const {
@@ -114,6 +120,7 @@ class CodeTable {
   static constexpr int max_m = 1000;
 
   const DialectTraits* dialect_;
+  bool lathe_ = false;
   std::array<const CodeRule*, max_g> g_{};
   std::array<const CodeRule*, max_m> m_{};
 };

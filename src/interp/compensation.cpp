@@ -39,9 +39,9 @@ std::string mm(double value) { return fixed(value, 4) + " mm"; }
 // ---- frames ----------------------------------------------------------------------------------
 
 Compensator::Point Compensator::point_of(const ModalState& state, const AxisValues& tip) const {
-  const AxisValues program = to_program(state, tip);
+  const AxisValues work = to_work(state, tip);
   const PlaneAxes axes = axes_of(state.plane);
-  return {program[axes.first], program[axes.second]};
+  return {work[axes.first], work[axes.second]};
 }
 
 // From the centre of the nose to the guided point, in the ZX plane: a is Z, b is X.
@@ -61,11 +61,11 @@ Compensator::Point Compensator::nose_shift(const ModalState& state) const {
 AxisValues Compensator::tip_of(const ModalState& state, const AxisValues& like,
                                Point centre) const {
   const Point guided = centre + nose_shift(state);
-  AxisValues program = to_program(state, like);
+  AxisValues work = to_work(state, like);
   const PlaneAxes axes = axes_of(state.plane);
-  program[axes.first] = guided.a;
-  program[axes.second] = guided.b;
-  AxisValues tip = to_tip(state, program);
+  work[axes.first] = guided.a;
+  work[axes.second] = guided.b;
+  AxisValues tip = work_to_tip(state, work);
   for (const Axis axis : all_axes) {
     const bool moves =
         axis == axes.first || axis == axes.second || (state.rotation != 0 && axis <= Axis::y);
@@ -74,8 +74,10 @@ AxisValues Compensator::tip_of(const ModalState& state, const AxisValues& like,
   return tip;
 }
 
+// The tool's radius is not scaled, so all of this happens behind the program's frame; there a
+// mirror has changed sides.
 double Compensator::side_sign(const ModalState& state) const {
-  return state.comp.side == CompSide::left ? 1 : -1;
+  return (state.comp.side == CompSide::left) != swaps_sides(state) ? 1 : -1;
 }
 
 // ---- the moves -------------------------------------------------------------------------------

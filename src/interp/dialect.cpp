@@ -68,7 +68,7 @@ const DialectTraits& traits_of(Dialect dialect) {
 
 std::vector<std::span<const CodeRule>> layers_of(Dialect dialect, bool lathe) {
   if (dialect == Dialect::linuxcnc) return {linuxcnc_rows()};
-  std::vector<std::span<const CodeRule>> layers = {fanuc_rows()};
+  std::vector<std::span<const CodeRule>> layers = {builder_rows(), fanuc_rows()};
   if (lathe) {
     layers.push_back(fanuc_lathe_rows());
     layers.push_back(fanuc_lathe_cycle_rows());

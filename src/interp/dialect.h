@@ -42,6 +42,7 @@ std::vector<std::span<const CodeRule>> layers_of(Dialect dialect, bool lathe);
 
 /// The rows that each dialect brings (code_table.cpp, fanuc_codes.cpp, haas_codes.cpp).
 std::span<const CodeRule> linuxcnc_rows();
+std::span<const CodeRule> builder_rows();           ///< every M-code, as the machine builder's
 std::span<const CodeRule> fanuc_rows();             ///< mills and lathes
 std::span<const CodeRule> fanuc_mill_rows();        ///< machining centres
 std::span<const CodeRule> fanuc_lathe_rows();       ///< turning centres, G-code system A

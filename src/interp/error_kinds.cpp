@@ -47,6 +47,9 @@ const std::vector<KindText>& error_kinds() {
       {"call_depth", "calls nested deeper than the control takes",
        "Nine calls may be open at once. A sub that calls itself must end some time. Example: `o1 "
        "sub / o1 call / o1 endsub`."},
+      {"code_accepted", "a code that moves nothing and is not modelled",
+       "Information. Smoothing, doors, chip conveyors and the like change no path here. Example: "
+       "`G187 P2`."},
       {"comp_arc", "the tool does not fit inside an arc",
        "With G41/G42 an arc on whose inside the tool runs needs a larger radius than the tool's. "
        "Example: a pocket corner of radius 2 with a 6 mm cutter. Use a smaller tool."},
@@ -70,6 +73,11 @@ const std::vector<KindText>& error_kinds() {
        "the "
        "contour; as a rapid that cuts in at full speed, also when only Z is given. Example: `G40` "
        "and then `G0 Z50`. Use G1 for both."},
+      {"control_setting", "what a line does depends on a setting of the control",
+       "Warning. Controls differ here, by a parameter. The message says what was taken to be "
+       "meant; "
+       "write it so that it means the same everywhere. Example: a first move with X alone behind "
+       "G68."},
       {"cycle_error", "a canned cycle that can't be carried out",
        "R must lie above the bottom, rotary axes can't move in it, G93 is not possible. Example: "
        "`G81 X1 R-5 Z-1`."},
@@ -105,6 +113,11 @@ const std::vector<KindText>& error_kinds() {
       {"flow_syntax", "an O-word used in a wrong way",
        "A condition is missing, something else stands on the line, or return, break, M98 or M99 "
        "are out of place. Example: `o1 if` without `[…]`."},
+      {"frame_error", "mirror image, scaling or rotation used in a wrong way",
+       "G51.1, G51 and G68 are given in this order and taken back in the other; while one is on, "
+       "the "
+       "plane, the work system and the reference points can't be used, and an arc needs the same "
+       "factor for both axes. Example: `G68 X0 Y0 R30` and then `G55`."},
       {"g10_error", "G10 with words that do not belong together",
        "L2 and L20 set work systems (P0-P9, no I J), L1, L10 and L11 tools. Example: `G10 L2 P12 "
        "X0`."},
@@ -165,6 +178,10 @@ const std::vector<KindText>& error_kinds() {
        "Info. The control would start the program again and again; one pass is executed here. End "
        "with "
        "M30 when it is to run once."},
+      {"reference_error", "a reference point that is not known or not reached",
+       "G30 P2 to P4 need the machine's points from the parameter file (#5181, #20181, #20201), "
+       "G29 "
+       "a G28 before, G27 must end at the point. Example: `G29 X0` as the first move."},
       {"shared_axis_words", "axis words used for an offset and a move",
        "Warning. In `G43.1 Z1 G0 X3` both words set the offset and are the end of the move. Use "
        "two lines."},

@@ -31,6 +31,7 @@ void BlockExecutor::execute(std::string_view line) {
     if (!run_.ok()) return;
   }
   if (block_.words.empty()) return;
+  if (run_.state.data_setting && !ends_data()) return;
   if (!collect() || !check_axes() || !find_motion() || !check_words()) return;
   for (std::size_t i = 0; i < count_ && run_.ok(); ++i) perform(items_[i]);
 }
@@ -131,6 +132,15 @@ void BlockExecutor::replace_code(const CodeRule& rule, Place place) {
   }
 }
 
+// Behind G10 L50 the lines are data of the control until G11, or the end of the program.
+bool BlockExecutor::ends_data() const {
+  for (const Word& word : block_.words)
+    if (word.rule && ((word.letter == 'G' && word.rule->code == 110) ||
+                      (word.letter == 'M' && word.rule->group == ModalGroup::stop)))
+      return true;
+  return false;
+}
+
 // Finds the rows of the codes, clashes in a group, and codes that are not known.
 bool BlockExecutor::collect() {
   std::uint32_t groups = 0;
@@ -165,9 +175,10 @@ bool BlockExecutor::collect() {
       return false;
     }
     const std::uint32_t group = 1u << static_cast<unsigned>(rule->group);
-    if ((groups & group) && word.letter == 'G' && run_.session.table.dialect().macro_b) {
+    const bool clash = (groups & group) && rule->group != ModalGroup::free;
+    if (clash && word.letter == 'G' && run_.session.table.dialect().macro_b) {
       replace_code(*rule, word.place);
-    } else if (groups & group) {
+    } else if (clash) {
       run_.error("modal_clash", word.place,
                  name_of(*rule) + " stands on one line with another code of the same group (" +
                      name_of(rule->group) + "); put it on a line of its own");
@@ -207,6 +218,13 @@ bool BlockExecutor::find_motion() {
   const CodeRule* given = run_.motion_rule;
   const bool axes = run_.axis_words_;
   if (own_ && own_->group != ModalGroup::motion) {
+    if (given && run_.session.table.dialect().macro_b) {
+      // G0 on a line with G28 only sets the mode.
+      if (given->code == 800 || given->code <= 30) {
+        mode_only_ = given->code != 800;
+        return true;
+      }
+    }
     if (given && given->code != 800) {
       run_.error("axis_conflict", *own_,
                  name_of(*own_) + " and " + name_of(*given) +
@@ -269,7 +287,7 @@ void BlockExecutor::perform(const Item& item) {
     if (item.letter == 'F') return feed_word(run_);
     if (item.letter == 'S' && own_ && own_->handler == speed_limit) return;
     if (item.letter == 'S') return speed_word(run_);
-    return tool_word(run_);
+    return run_.session.table.lathe() ? lathe_tool_word(run_) : tool_word(run_);
   }
   const CodeRule& rule = *item.rule;
   if (rule.group == ModalGroup::motion && run_.state.nurbs_points > 0 && rule.code != 52) {
@@ -282,6 +300,7 @@ void BlockExecutor::perform(const Item& item) {
     run_.state.rigid_tapping = false;
     if (rule.handler != single_pass) run_.state.turning.code = 0;
   }
+  if (rule.group == ModalGroup::motion && mode_only_) return after_motion(rule);
   rule.handler(rule, run_);
   if (run_.ok() && rule.group == ModalGroup::motion) after_motion(rule);
 }

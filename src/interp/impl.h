@@ -12,6 +12,7 @@
 #include "interp/interp.h"
 #include "interp/parser.h"
 #include "interp/run.h"
+#include "interp/system_variables.h"
 
 namespace aircut::interp {
 
@@ -116,6 +117,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   // ---- start (start.cpp)
   void start(const ParameterFile& file);
   void load_parameters(const ParameterFile& file);
+  void load_offsets(const ParameterFile& file);
+  void store_offsets(ParameterFile& file) const;
   void apply_settings();
   bool text_is_readable();
   void find_percent(ProgramFile& file) const;
@@ -292,6 +295,7 @@ class BlockExecutor {
   bool find_motion();
   bool check_words();
   bool check_axes();
+  bool ends_data() const;
   void perform(const Item& item);
   void after_motion(const CodeRule& rule);
   void add(Phase phase, const CodeRule* rule, char letter);
@@ -304,6 +308,7 @@ class BlockExecutor {
   std::uint32_t letters_ = 0;  ///< bit per letter_index
   const CodeRule* own_ = nullptr;
   const CodeRule* shared_ = nullptr;
+  bool mode_only_ = false;  ///< the motion code of the line makes no move
   bool polar_ = false;
 };
 

@@ -231,6 +231,7 @@ bool Interpreter::Impl::plain_move(Block& block) {
   if (!block.has_rules && !(block.letters & axis_letters)) return false;
   if (feeds && (s.feed <= 0 || s.feed_mode != canon::FeedMode::per_minute)) return false;
   if (s.comp.side != CompSide::off || s.comp.leaving || s.rotation != 0 || s.nurbs_points > 0 ||
+      s.frame.active() || s.turn_was_left || s.length_suspended || s.data_setting ||
       s.lathe_diameter || failed_)
     return false;
   AxisValues tip = s.tip;
@@ -367,6 +368,7 @@ void Interpreter::Impl::execute_words(Block& block) {
 
 void Interpreter::Impl::resume(const ProbeHit& hit) {
   state_.tip = hit.tip;
+  session_.skip_position = to_work(state_, hit.tip) + state_.length_offset;
   const AxisValues work = to_program(state_, hit.tip);
   for (const Axis axis : all_axes)
     parameters_.write(number::probe_position + static_cast<int>(index(axis)),
@@ -379,13 +381,16 @@ void Interpreter::Impl::resume(const ProbeHit& hit) {
 // number that the file had already.
 ParameterFile Interpreter::Impl::parameters() const {
   ParameterFile file;
+  if (table_.dialect().macro_b) store_offsets(file);
   const auto keep = [&](int first, int count) {
     for (int n = first; n < first + count; ++n) file.values[n] = parameters_.stored(n);
   };
-  keep(number::g28_position, 9);
-  keep(number::g30_position, 9);
-  keep(number::g92_applied, 11);
-  for (int system = 0; system < 9; ++system) keep(number::first_system + 20 * system, 10);
+  if (!table_.dialect().macro_b) {
+    keep(number::g28_position, 9);
+    keep(number::g30_position, 9);
+    keep(number::g92_applied, 11);
+    for (int system = 0; system < 9; ++system) keep(number::first_system + 20 * system, 10);
+  }
   for (const int n : kept_numbers_) file.values[n] = parameters_.stored(n);
   if (table_.dialect().macro_b) {
     for (int n = 500; n < Parameters::first_system; ++n) file.values[n] = parameters_.stored(n);
@@ -448,7 +453,7 @@ void Interpreter::Impl::report(const char* kind, Place place, std::string messag
   report(Fault{kind, place, std::move(message)});
 }
 
-void Interpreter::Impl::warn(const Fault& fault) {
+void Interpreter::Impl::warn(const Fault& fault, Severity severity) {
   const SourceSpan at = span_of(fault.place);
   if (reported_.size() >= max_reported || !reported_.emplace(at.text, at.begin, fault.kind).second)
     return;

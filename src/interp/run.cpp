@@ -124,7 +124,14 @@ tool::Tool* BlockRun::change_tool(int number) {
   return &*at;
 }
 
+OffsetMemory& BlockRun::change_offsets() {
+  if (!old_offsets_) old_offsets_ = session.offsets;
+  return session.offsets;
+}
+
 void BlockRun::roll_back_tools() {
+  if (old_offsets_) session.offsets = std::move(*old_offsets_);
+  old_offsets_.reset();
   for (auto old = old_tools_.rbegin(); old != old_tools_.rend(); ++old)
     for (tool::Tool& tool : session.tools.tools)
       if (tool.number == old->number) tool = *old;

@@ -12,6 +12,7 @@
 #include "interp/code_table.h"
 #include "interp/compensation.h"
 #include "interp/interp.h"
+#include "interp/offset_memory.h"
 #include "interp/parameters.h"
 #include "interp/state.h"
 
@@ -27,6 +28,8 @@ struct Session {
   std::vector<canon::SplineFeed::Point> nurbs;  ///< control points since G5.2, machine coordinates
   double machine_unit_mm = 1;
   int points_missing = 0;  ///< `decimal_point` warnings told so far
+  OffsetMemory offsets{};      ///< Fanuc, Haas
+  AxisValues skip_position{};  ///< of the last G31, with the tool offset: work coordinates
 };
 
 /// What a block asks of the flow of control once it has succeeded.
@@ -181,6 +184,8 @@ class BlockRun {
   void store_axes(int first, const AxisValues& values);
   /// The tool with this number for changing it; the old state is kept for a roll back.
   tool::Tool* change_tool(int number);
+  /// The offsets of a Fanuc-like control for changing them; kept for a roll back too.
+  OffsetMemory& change_offsets();
   void roll_back_tools();
 
  private:
@@ -193,6 +198,7 @@ class BlockRun {
   std::vector<Fault> warnings_;
   std::vector<Fault> infos_;
   std::vector<tool::Tool> old_tools_;
+  std::optional<OffsetMemory> old_offsets_;
   bool axis_words_ = false;
 };
 

@@ -51,6 +51,11 @@ void Interpreter::Impl::start(const ParameterFile& file) {
     state_.feed_mode = canon::FeedMode::per_revolution;
   }
   state_.tool = options_.tool_in_spindle;
+  if (table_.dialect().macro_b) {
+    state_.lathe_diameter = table_.lathe();
+    if (table_.lathe()) state_.plane = canon::Plane::zx;
+    load_offsets(file);
+  }
   load_parameters(file);
   apply_settings();
   const double stored = parameters_.stored(number::active_system);
@@ -72,6 +77,48 @@ void Interpreter::Impl::start(const ParameterFile& file) {
   }
   if (!text_is_readable()) return stop();
   emit_start_state();
+}
+
+// Work systems and reference points of a Fanuc-like control, by the numbers of its own variables.
+void Interpreter::Impl::load_offsets(const ParameterFile& file) {
+  OffsetMemory& offsets = session_.offsets;
+  offsets = OffsetMemory(tools_);
+  const auto read = [&](int first) -> std::optional<AxisValues> {
+    AxisValues values;
+    bool any = false;
+    for (const Axis axis : all_axes) {
+      const auto found = file.values.find(first + static_cast<int>(index(axis)));
+      if (found == file.values.end()) continue;
+      any = true;
+      values[axis] =
+          found->second * (is_rotary(axis) ? radian_per_degree : session_.machine_unit_mm);
+    }
+    if (state_.lathe_diameter) values[Axis::x] /= 2;
+    return any ? std::optional(values) : std::nullopt;
+  };
+  for (int system = 0; system <= OffsetMemory::extended + OffsetMemory::max_extended; ++system)
+    if (OffsetMemory::has_system(system))
+      if (const auto values = read(system_variable_of(system))) offsets.system(system) = *values;
+  for (int n = 1; n <= 4; ++n)
+    if (const auto values = read(OffsetMemory::reference_number(n)))
+      offsets.set_reference(n, *values);
+}
+
+void Interpreter::Impl::store_offsets(ParameterFile& file) const {
+  const auto write = [&](int first, AxisValues values) {
+    if (table_.lathe()) values[Axis::x] *= 2;
+    for (const Axis axis : all_axes)
+      file.values[first + static_cast<int>(index(axis))] =
+          values[axis] / (is_rotary(axis) ? radian_per_degree : session_.machine_unit_mm);
+  };
+  for (int system = 0; system <= OffsetMemory::extended + OffsetMemory::max_extended; ++system) {
+    if (!OffsetMemory::has_system(system)) continue;
+    const AxisValues& values = session_.offsets.system(system);
+    if (system <= 6 || !(values == AxisValues{})) write(system_variable_of(system), values);
+  }
+  for (int n = 1; n <= 4; ++n)
+    if (const auto point = session_.offsets.reference(n))
+      write(OffsetMemory::reference_number(n), *point);
 }
 
 void Interpreter::Impl::load_parameters(const ParameterFile& file) {

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 
 #include "canon/canon.h"
 #include "interp/contour.h"
+#include "interp/program_frame.h"
 
 namespace aircut::interp {
 
@@ -70,9 +72,22 @@ struct ModalState {
   AxisValues tip;
   AxisValues work_offset;  ///< of the active system
   double rotation = 0;     ///< of the active system about Z
-  AxisValues g92;          ///< in force
+  AxisValues g92;          ///< in force; on Fanuc the local shift (G52) is part of it
+  AxisValues local_shift;  ///< G52 of Fanuc
+  ProgramFrame frame;      ///< G51.1 G51 G68 of Fanuc
+  /// G68: the program coordinates from before it, until the first move in its plane.
+  bool turn_is_fresh = false;
+  AxisValues before_turn;
+  /// G69: the next move in this plane must be absolute.
+  bool turn_was_left = false;
   AxisValues length_offset;
-  int system = 1;
+  int system = 1;  ///< 1 (G54) … 9; 100 + n: G54.1 Pn
+  // Fanuc
+  bool length_suspended = false;  ///< G28 or G53 took the length offset away while G43 is on
+  int length_number = -1;         ///< of the last H word; -1: none yet
+  int offset_number = -1;         ///< of the last D word, or of a lathe's T word; -1: none yet
+  std::optional<AxisValues> way_point;  ///< intermediate point of G28, for G29: machine coordinates
+  bool data_setting = false;            ///< between G10 L50 and G11
 
   canon::Unit unit = canon::Unit::millimetre;
   canon::Plane plane = canon::Plane::xy;
@@ -114,13 +129,22 @@ struct ModalState {
 AxisValues to_program(const ModalState& state, const AxisValues& tip);
 /// Tip position of program coordinates.
 AxisValues to_tip(const ModalState& state, const AxisValues& program);
+/// The same without the program's frame: a rigid system, in which lengths are true.
+AxisValues to_work(const ModalState& state, const AxisValues& tip);
+AxisValues work_to_tip(const ModalState& state, const AxisValues& work);
+/// The axes that may move when program coordinates of `named` change; all others stay to the last
+/// bit.
+AxisSet moved_by(const ModalState& state, AxisSet named);
 
 /// The axes of a plane: first, second and normal, right-handed.
 struct PlaneAxes {
   Axis first, second, normal;
 };
 PlaneAxes axes_of(canon::Plane plane);
-/// Unit normal of the plane in force, machine coordinates.
+/// Unit normal of the plane in force, machine coordinates. The program's frame turns about it and
+/// leaves it as it is.
 Vec3 plane_normal(const ModalState& state);
+/// Whether the frame makes right of left in the plane in force.
+bool swaps_sides(const ModalState& state);
 
 }  // namespace aircut::interp

@@ -229,6 +229,7 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
           },
           [&](const canon::WorkRotation&) { return still(command); },
           [&](const canon::G92Offset&) { return still(command); },
+          [&](const canon::ProgramMap&) { return still(command); },
           [&](const canon::ToolLengthOffset& c) {
             merger_.stop();
             // The machine stands still; what changes is where the tip is: along Z, as long as the
@@ -292,7 +293,7 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
           [&](const canon::WaitInput&) { return barrier(command); },
           [&](const canon::UserCode& c) {
             const auto rule = machine_.user_codes().find(c.code);
-            const bool timed = rule != machine_.user_codes().end() &&
+            const bool timed = c.letter == 'M' && rule != machine_.user_codes().end() &&
                                rule->second.kind == machine::UserCodeKind::time;
             return barrier(command, timed ? rule->second.seconds : 0);
           },

@@ -61,8 +61,9 @@ Finding finding_at(Kind kind, const Step& step, double t) {
   f.t_block_end = segment.t_end();
   f.tool = step.scene.loaded_tool();
   if (const tool::Tool* tool = step.scene.tool()) f.tool_name = tool->name;
-  const int system = std::clamp(segment.work_system, 1, 9);
-  f.work_system = work_systems[system - 1];
+  const int system = segment.work_system;
+  f.work_system = system > 100 ? "G54.1 P" + std::to_string(system - 100)
+                               : work_systems[std::clamp(system, 1, 9) - 1];
   f.motion = segment.kind;
   f.t_first = f.t_worst = f.t_end = t;
   f.feed = segment.feed;

@@ -75,6 +75,14 @@ void Simulator::step(const plan::Segment& segment) {
 void Simulator::user_code(const Step& step, const canon::UserCode& code) {
   const auto& rules = scene_.machine().user_codes();
   const auto rule = rules.find(code.code);
+  if (code.letter != 'M') {
+    Finding f = finding_at(Kind::not_executed, step, step.segment.t_end());
+    f.message = "the lines from here to G11 set data of the control, which is never done here";
+    f.remedy = "take them out of the program, and give the control's data in the machine";
+    f.makes_unknown = true;
+    findings_.add(f);
+    return;
+  }
   if (rule != rules.end() && (rule->second.kind == machine::UserCodeKind::ignore ||
                               rule->second.kind == machine::UserCodeKind::time))
     return;

@@ -98,6 +98,7 @@ TEST(Text, OfEveryCommandIsOneLineWithAWordFirst) {
                                    WorkOffset{},
                                    WorkRotation{},
                                    G92Offset{},
+                                   ProgramMap{},
                                    ToolLengthOffset{},
                                    SetPathMode{},
                                    SetNaiveCam{},

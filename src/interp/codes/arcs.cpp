@@ -124,6 +124,21 @@ bool words_fit(BlockRun& run, const CodeRule& rule) {
   return true;
 }
 
+// With unequal factors a circle would become an ellipse, which the controls do not drive: they make
+// something else of it, each its own way.
+bool keeps_circles(BlockRun& run, const CodeRule& rule) {
+  const ProgramFrame& frame = run.state.frame;
+  const PlaneAxes axes = axes_of(run.state.plane);
+  const double first = std::fabs(frame.factors[static_cast<int>(index(axes.first))]);
+  const double second = std::fabs(frame.factors[static_cast<int>(index(axes.second))]);
+  if (!frame.scaled || std::fabs(first - second) <= 1e-12 * first) return true;
+  run.error("frame_error", rule,
+            std::string("G51 scales ") + letter(axes.first) + " by " + shortest(first) + " and " +
+                letter(axes.second) + " by " + shortest(second) +
+                ", which makes no circle of an arc; use one factor for both");
+  return false;
+}
+
 }  // namespace
 
 std::optional<PlanePoint> arc_centre(BlockRun& run, const CodeRule& rule, PlanePoint start,
@@ -163,21 +178,25 @@ void arc(const CodeRule& rule, BlockRun& run) {
   if (!centre) return;
   if (!run.has('R') && !radii_agree(run, rule, a, b, *centre)) return;
 
+  if (!keeps_circles(run, rule)) return;
   AxisValues middle = start;
   middle[axes.first] = centre->a;
   middle[axes.second] = centre->b;
   middle = to_tip(state, middle);
   PlannedMove move{PlannedMove::Kind::arc, *target, {}};
   // An end that is the start but for rounding means a full circle.
-  const bool aligned = state.rotation == 0 || state.plane == canon::Plane::xy;
-  if (aligned && std::hypot(b.a - a.a, b.b - a.b) < 1e-9) {
-    move.end[axes.first] = state.programmed_tip()[axes.first];
-    move.end[axes.second] = state.programmed_tip()[axes.second];
-  }
+  AxisSet plane, depth;
+  plane.add(axes.first);
+  plane.add(axes.second);
+  depth.add(axes.normal);
+  const bool aligned = moved_by(state, depth) == depth;
+  if (aligned && std::hypot(b.a - a.a, b.b - a.b) < 1e-9)
+    for (const Axis axis : all_axes)
+      if (moved_by(state, plane).has(axis)) move.end[axis] = state.programmed_tip()[axis];
   move.arc.end = move.end;
   move.arc.centre = Vec3(middle[Axis::x], middle[Axis::y], middle[Axis::z]);
   move.arc.normal = plane_normal(state);
-  move.arc.turns = rule.code == 30 ? turns : -turns;
+  move.arc.turns = (rule.code == 30) != swaps_sides(state) ? turns : -turns;
   move.arc.plane = state.plane;
   if (state.comp.side != CompSide::off || state.comp.leaving)
     return run.session.compensator.move(run, move);

@@ -63,6 +63,35 @@ void length_offset(const CodeRule&, BlockRun&);
 void work_system(const CodeRule&, BlockRun&);
 void local_offset(const CodeRule&, BlockRun&);
 void g92(const CodeRule&, BlockRun&);
+// fanuc_offsets.cpp
+void fanuc_work_system(const CodeRule&, BlockRun&);
+void local_shift(const CodeRule&, BlockRun&);
+void coordinate_shift(const CodeRule&, BlockRun&);
+void preset_work_system(const CodeRule&, BlockRun&);
+void fanuc_data(const CodeRule&, BlockRun&);
+void set_lathe_offset(const CodeRule&, BlockRun&);
+void data_end(const CodeRule&, BlockRun&);
+// fanuc_tools.cpp
+void fanuc_length_offset(const CodeRule&, BlockRun&);
+void fanuc_radius_comp(const CodeRule&, BlockRun&);
+// fanuc_reference.cpp
+void fanuc_machine_coordinates(const CodeRule&, BlockRun&);
+void fanuc_home(const CodeRule&, BlockRun&);
+void return_from_home(const CodeRule&, BlockRun&);
+void check_home(const CodeRule&, BlockRun&);
+void skip_move(const CodeRule&, BlockRun&);
+// fanuc_modes.cpp
+void fanuc_dwell(const CodeRule&, BlockRun&);
+void fanuc_path_mode(const CodeRule&, BlockRun&);
+void accepted(const CodeRule&, BlockRun&);
+void builder_code(const CodeRule&, BlockRun&);
+void fanuc_orient(const CodeRule&, BlockRun&);
+void fanuc_end(const CodeRule&, BlockRun&);
+// frames.cpp: Fanuc
+void scaling(const CodeRule&, BlockRun&);
+void mirror_image(const CodeRule&, BlockRun&);
+void rotation_on(const CodeRule&, BlockRun&);
+void rotation_off(const CodeRule&, BlockRun&);
 // spindle.cpp
 void spindle_mode(const CodeRule&, BlockRun&);
 void spindle_turn(const CodeRule&, BlockRun&);
@@ -94,6 +123,8 @@ void modal_stack(const CodeRule&, BlockRun&);
 void feed_word(BlockRun&);
 void speed_word(BlockRun&);
 void tool_word(BlockRun&);
+/// T of a Fanuc-like lathe: tool and offset.
+void lathe_tool_word(BlockRun&);
 
 // ---- shared by several files
 /// The spindle of the `$` word: its index, or `otherwise` without the word. An error when the
@@ -119,9 +150,22 @@ void emit_feed(BlockRun& run);
 bool feed_is_set(BlockRun& run, const CodeRule& rule);
 /// Makes `next`'s settings of work system `system` the ones in force, from the parameters.
 void load_work_system(BlockRun& run, int system);
+/// Turns radius compensation on; a radius below 0 changes the side.
+void start_compensation(const CodeRule& rule, BlockRun& run, CompSide side, double radius,
+                        int orientation);
 /// Sets the length offset in force; the controlled point stays where it is.
 /// `tool`: whose length it is; 0 when it is not a tool's.
 void use_length_offset(BlockRun& run, const AxisValues& offset, int tool = 0);
+/// False with an error when the first move behind G68 or G69 can't be made so; fills in what the
+/// control takes from before G68. `program` is the target, `named` the axes with a word.
+bool first_move_in_frame(BlockRun& run, AxisSet named, AxisValues& program);
+/// Takes back mirror image, scaling and rotation (M30).
+void reset_frames(BlockRun& run);
+/// True when no frame of the program acts on these axes; else the error is recorded.
+bool frame_allows(BlockRun& run, const CodeRule& rule, AxisSet axes);
+/// The number of a word whose digits without a point count thousandths, whatever the unit: angles,
+/// factors, seconds.
+double thousandths(const BlockRun& run, const Word& word);
 /// Emits the commands that bring a listener from `from` to `to` (M72 and returns of M73).
 void restore_state(BlockRun& run, const ModalState& saved);
 

@@ -22,6 +22,7 @@ bool refuse_with_comp(BlockRun& run, const CodeRule& rule) {
 
 void select_plane(const CodeRule& rule, BlockRun& run) {
   if (refuse_with_comp(run, rule)) return;
+  const canon::Plane before = run.state.plane;
   switch (rule.code) {
     case 170:
       run.state.plane = canon::Plane::xy;
@@ -42,6 +43,9 @@ void select_plane(const CodeRule& rule, BlockRun& run) {
       run.state.plane = canon::Plane::vw;
       break;
   }
+  if (run.state.frame.turned && run.state.plane != before)
+    return run.error("frame_error", rule,
+                     "the plane can't be changed while G68 turns it; give G69 before");
   run.emit(canon::SelectPlane{run.state.plane});
 }
 
@@ -187,13 +191,24 @@ void radius_comp_on(const CodeRule& rule, BlockRun& run) {
       comp.orientation = tool->orientation;
     }
   }
-  if (comp.orientation != 0 && comp.orientation != 9 && state.plane != canon::Plane::zx)
+  start_compensation(rule, run, comp.side, diameter / 2, comp.orientation);
+  state.comp.from_diameter_word = comp.from_diameter_word;
+}
+
+void start_compensation(const CodeRule& rule, BlockRun& run, CompSide side, double radius,
+                        int orientation) {
+  if (run.state.plane != canon::Plane::xy && run.state.plane != canon::Plane::zx)
+    return run.error("comp_illegal", rule,
+                     "radius compensation needs the XY or ZX plane; give G17 or G18 before");
+  if (orientation != 0 && orientation != 9 && run.state.plane != canon::Plane::zx)
     return run.error("comp_illegal", rule,
                      "a lathe tool (orientation 1-8) needs the ZX plane; give G18 before");
-  // A negative diameter compensates to the other side.
-  if (diameter < 0) comp.side = comp.side == CompSide::left ? CompSide::right : CompSide::left;
-  comp.radius = std::fabs(diameter) / 2;
-  state.comp = comp;
+  CompState comp;
+  // A negative radius compensates to the other side.
+  comp.side = (side == CompSide::left) == (radius >= 0) ? CompSide::left : CompSide::right;
+  comp.radius = std::fabs(radius);
+  comp.orientation = orientation;
+  run.state.comp = comp;
   run.session.compensator.start();
 }
 

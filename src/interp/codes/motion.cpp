@@ -63,9 +63,16 @@ std::optional<AxisValues> target_of(BlockRun& run) {
   const ModalState& state = run.state;
   if (run.machine_coordinates && run.motion_rule && !run.has('@') && !run.has('^'))
     return machine_target(run);
+  if (state.length_suspended && run.motion_rule && run.has('Z')) {
+    run.warning(
+        "control_setting", run.place('Z'),
+        "G28, G30 or G53 has taken the tool length offset away, and whether it comes back by "
+        "itself depends on a parameter of the control; give G43 H again");
+    run.state.length_suspended = false;
+  }
   const AxisValues& start = state.programmed_tip();
   const bool polar = run.has('@') || run.has('^');
-  if (state.rotation == 0 && !polar) {
+  if (state.rotation == 0 && !state.frame.active() && !state.turn_was_left && !polar) {
     AxisValues tip = start;
     for (const Axis axis : all_axes) {
       if (const auto by = run.increment(axis)) tip[axis] += *by;
@@ -77,21 +84,28 @@ std::optional<AxisValues> target_of(BlockRun& run) {
     return tip;
   }
   AxisValues program = to_program(state, start);
+  AxisSet named;
   for (const Axis axis : all_axes) {
-    if (const auto by = run.increment(axis)) program[axis] += *by;
-    if (const auto value = run.axis(axis))
-      program[axis] = state.incremental ? program[axis] + *value : *value;
+    if (const auto by = run.increment(axis)) {
+      program[axis] += *by;
+      named.add(axis);
+    }
+    const auto value = run.axis(axis);
+    if (!value) continue;
+    program[axis] = state.incremental ? program[axis] + *value : *value;
+    named.add(axis);
   }
-  if (polar && !apply_polar(run, program[Axis::x], program[Axis::y])) return std::nullopt;
+  if (polar) {
+    if (!apply_polar(run, program[Axis::x], program[Axis::y])) return std::nullopt;
+    named.add(Axis::x);
+    named.add(Axis::y);
+  }
+  if (!first_move_in_frame(run, named, program)) return std::nullopt;
   AxisValues tip = to_tip(state, program);
   // What no word named stays exactly where it is.
-  const bool turned =
-      run.has('X') || run.has('Y') || run.increment(Axis::x) || run.increment(Axis::y) || polar;
-  for (const Axis axis : all_axes) {
-    const bool in_plane = axis == Axis::x || axis == Axis::y;
-    if (in_plane ? !turned : !run.has(letter(axis)) && !run.increment(axis))
-      tip[axis] = start[axis];
-  }
+  const AxisSet moved = moved_by(state, named);
+  for (const Axis axis : all_axes)
+    if (!moved.has(axis)) tip[axis] = start[axis];
   return tip;
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
+#include "interp/dialect.h"
 
 namespace aircut::interp {
 namespace {
@@ -127,6 +128,12 @@ void set_tool_data(const CodeRule& rule, BlockRun& run, int kind) {
 }  // namespace
 
 void load_work_system(BlockRun& run, int system) {
+  if (run.session.table.dialect().macro_b) {
+    const OffsetMemory& offsets = run.session.offsets;
+    run.state.system = system;
+    run.state.work_offset = offsets.system(OffsetMemory::common) + offsets.system(system);
+    return;
+  }
   const int base = system_base(system);
   run.state.system = system;
   run.state.work_offset = run.stored_axes(base);

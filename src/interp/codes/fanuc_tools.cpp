@@ -1,0 +1,126 @@
+// Tool offsets of Fanuc-like controls: G43 G44 G49 with H, G41 G42 with D, and the T word of
+// lathes.
+#include <cmath>
+
+#include "base/text.h"
+#include "interp/codes/codes.h"
+#include "interp/dialect.h"
+
+namespace aircut::interp {
+namespace {
+
+const ToolOffset* row_of(BlockRun& run, int number, Place place) {
+  const ToolOffset* row = run.session.offsets.tool(number);
+  if (!row)
+    run.error("tool_unknown", place,
+              "the tool offset " + std::to_string(number) +
+                  " is neither in the tool table nor set by G10; add it");
+  return row;
+}
+
+// On a Fanuc the words mean where the tip goes, so a new offset without a Z word moves the machine
+// until the tip is where its coordinates say; with a Z word it is part of that move. On a Haas a
+// new offset alone moves nothing.
+void take_length_offset(BlockRun& run, const AxisValues& offset) {
+  ModalState& state = run.state;
+  const AxisValues before = state.tip;
+  state.length_suspended = false;
+  if (offset == state.length_offset) return;
+  use_length_offset(run, offset);
+  if (run.session.options.dialect == Dialect::haas) return;
+  if (run.has('Z') && run.motion_rule) {
+    if (state.incremental) state.tip[Axis::z] = before[Axis::z];
+    return;
+  }
+  state.tip = before;
+  if (state.motion == 10 && state.feed > 0)
+    run.emit(canon::LinearFeed{before}, "tool length offset");
+  else
+    run.emit(canon::Rapid{before}, "tool length offset");
+}
+
+}  // namespace
+
+void fanuc_length_offset(const CodeRule& rule, BlockRun& run) {
+  ModalState& state = run.state;
+  if (state.comp.side != CompSide::off)
+    return run.error("comp_illegal", rule,
+                     name_of(rule) +
+                         " can't be used while radius compensation is on; give G40 "
+                         "before");
+  if (rule.code == 490) return take_length_offset(run, {});
+  const auto h = run.has('H') ? run.integer('H', 0, OffsetMemory::max_tool)
+                              : std::optional<int>(state.length_number);
+  if (!h) return;
+  if (!run.has('H') && state.length_number < 0)
+    return run.error("word_missing", rule, name_of(rule) + " needs H: the number of the offset");
+  AxisValues offset;
+  if (*h != 0) {
+    const ToolOffset* row = row_of(run, *h, run.has('H') ? run.place('H') : run.place(rule));
+    if (!row) return;
+    offset[Axis::z] = (rule.code == 440 ? -1 : 1) * row->axes()[Axis::z];
+  }
+  state.length_number = *h;
+  take_length_offset(run, offset);
+}
+
+void fanuc_radius_comp(const CodeRule& rule, BlockRun& run) {
+  ModalState& state = run.state;
+  if (state.comp.side != CompSide::off) {
+    // The other side on the way is not implemented; the same code again changes nothing.
+    const bool same = (rule.code == 410) == (state.comp.side == CompSide::left);
+    if (same && !run.has('D')) return;
+    return run.error("comp_illegal", rule,
+                     name_of(rule) +
+                         " while radius compensation is on can't be followed here; "
+                         "give G40 before");
+  }
+  if (run.has('D')) {
+    const auto d = run.integer('D', 0, OffsetMemory::max_tool);
+    if (!d) return;
+    state.offset_number = *d;
+  }
+  if (state.offset_number < 0)
+    return run.error("word_missing", rule, name_of(rule) + " needs D: the number of the offset");
+  double radius = 0;
+  int orientation = 0;
+  if (state.offset_number != 0) {
+    const ToolOffset* row =
+        row_of(run, state.offset_number, run.has('D') ? run.place('D') : run.place(rule));
+    if (!row) return;
+    radius = row->whole_radius();
+    if (run.session.table.lathe()) orientation = row->orientation;
+  }
+  const CompSide side = rule.code == 410 ? CompSide::left : CompSide::right;
+  start_compensation(rule, run, side, radius, orientation);
+}
+
+// T0103: tool 1 with offset 3; T0100 takes the offset away. There is no M6.
+void lathe_tool_word(BlockRun& run) {
+  const auto word = run.integer('T', 0, 99999);
+  if (!word) return;
+  ModalState& state = run.state;
+  if (state.comp.side != CompSide::off)
+    return run.error("comp_illegal", 'T',
+                     "the tool can't be changed while radius compensation is on; give G40 before");
+  const int tool = *word / 100, number = *word % 100;
+  if (tool != 0 && !run.session.tools.find(tool))
+    return run.error("tool_unknown", 'T',
+                     "tool " + std::to_string(tool) +
+                         " is not in the tool table; T0103 means tool 1 with offset 3");
+  AxisValues offset;
+  if (number != 0) {
+    const ToolOffset* row = row_of(run, number, run.place('T'));
+    if (!row) return;
+    offset = row->axes();
+  }
+  if (tool != 0 && tool != state.tool) {
+    state.selected_tool = state.tool = tool;
+    run.emit(canon::SelectTool{tool});
+    run.emit(canon::ChangeTool{tool});
+  }
+  state.offset_number = number;
+  use_length_offset(run, offset);
+}
+
+}  // namespace aircut::interp
