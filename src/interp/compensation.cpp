@@ -24,6 +24,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "interp/dialect.h"
 #include "interp/run.h"
 
 namespace aircut::interp {
@@ -31,6 +32,8 @@ namespace {
 
 constexpr double corner_angle = 0.05;  // rad, of the reference
 constexpr double same_point = 1e-9;    // mm
+
+bool is_fanuc(const BlockRun& run) { return run.session.table.dialect().macro_b; }
 
 std::string mm(double value) { return fixed(value, 4) + " mm"; }
 
@@ -115,6 +118,15 @@ void Compensator::leave(BlockRun& run, const PlannedMove& planned) {
     run.emit(canon::LinearFeed{planned.end});
 }
 
+// A move before compensation has begun.
+void Compensator::plain(BlockRun& run, const PlannedMove& planned) {
+  run.state.tip = planned.end;
+  if (planned.kind == PlannedMove::Kind::rapid)
+    run.emit(canon::Rapid{planned.end});
+  else
+    run.emit(canon::LinearFeed{planned.end});
+}
+
 // A move without way in the plane: the corner stays open.
 void Compensator::stay(BlockRun& run, const PlannedMove& planned) {
   ModalState& state = run.state;
@@ -133,6 +145,9 @@ void Compensator::move(BlockRun& run, const PlannedMove& planned) {
   const Point to = point_of(state, planned.end);
   const bool is_arc = planned.kind == PlannedMove::Kind::arc;
   if (!state.comp.entered) {
+    // On Fanuc the first move in the plane begins it.
+    if (is_fanuc(run) && !is_arc && norm(to - point_of(state, state.tip)) < same_point)
+      return plain(run, planned);
     const Point from = point_of(state, state.tip) - nose_shift(state);
     auto path = entry_path(run, planned, from, to);
     if (!path) return;
@@ -158,10 +173,11 @@ std::optional<Compensator::Path> Compensator::entry_path(BlockRun& run, const Pl
   const double r = state.comp.radius;
   const double side = side_sign(state);
   Path path;
+  path.entry = true;
   path.start = from;
   if (planned.kind != PlannedMove::Kind::arc) {
     const double length = norm(to - from);
-    if (length <= r) {
+    if (length <= (is_fanuc(run) ? same_point : r)) {
       run.error("comp_entry", run.whole(),
                 "the move that begins radius compensation is " + mm(length) +
                     " long in the plane; it must be longer than the tool's radius " + mm(r));
@@ -175,6 +191,11 @@ std::optional<Compensator::Path> Compensator::entry_path(BlockRun& run, const Pl
     // The tool runs obliquely to the offset point.
     path.direction = path.end - from;
     return path;
+  }
+  if (is_fanuc(run)) {
+    run.error("comp_entry", run.whole(),
+              "radius compensation begins with a straight move, not with an arc");
+    return std::nullopt;
   }
   AxisValues middle = planned.end;
   for (int i = 0; i < 3; ++i) middle.value[static_cast<std::size_t>(i)] = planned.arc.centre[i];
@@ -247,6 +268,11 @@ std::optional<Compensator::Path> Compensator::next_path(BlockRun& run, const Pla
 // Puts the corner between the held element and the next one in order and lets go of the held one.
 bool Compensator::join(BlockRun& run, Path& next, Point corner, bool is_rapid) {
   ModalState& state = run.state;
+  if (last_->entry && is_fanuc(run)) {  // straight to beside the corner, as start-up type A
+    end_held_at(run, next.start);
+    flush(run);
+    return true;
+  }
   const double side = side_sign(state);
   const Point before = last_->end_normal;
   double beta =
@@ -317,7 +343,12 @@ bool Compensator::meet_inside(BlockRun& run, Path& next, Point corner) {
   shortened.end = at;
   if (!still_forward(shortened)) return misfit("the move before it is too short");
   next.start = at;
-  // What is held behind the shortened element stands at its end.
+  end_held_at(run, at);
+  return true;
+}
+
+// The held element ends there; so does what is held behind it.
+void Compensator::end_held_at(BlockRun& run, Point at) {
   for (canon::Command& command : held_) {
     std::visit(
         overloaded{[&](canon::Rapid& c) { c.end = tip_of(run.state, c.end, at); },
@@ -326,7 +357,6 @@ bool Compensator::meet_inside(BlockRun& run, Path& next, Point corner) {
         command.action);
   }
   last_->end = at;
-  return true;
 }
 
 // The angle that an arc runs through, in its own turning direction, from 0 to 2π.

@@ -43,6 +43,7 @@ class Compensator {
   /// A move of the tool's centre in the plane.
   struct Path {
     bool is_arc = false;
+    bool entry = false;  ///< the move that begins compensation
     Point start, end;
     Point centre;       ///< arcs only
     double radius = 0;  ///< arcs only
@@ -60,11 +61,13 @@ class Compensator {
   std::optional<Path> entry_path(BlockRun& run, const PlannedMove& planned, Point from, Point to);
   std::optional<Path> next_path(BlockRun& run, const PlannedMove& planned, Point from, Point to);
   bool join(BlockRun& run, Path& next, Point corner, bool is_rapid);
+  void end_held_at(BlockRun& run, Point at);
   bool meet_inside(BlockRun& run, Path& next, Point corner);
   std::vector<Point> intersections(const Path& first, const Path& second) const;
   double sweep_of(const Path& arc) const;
   bool still_forward(const Path& path) const;
   void emit_path(BlockRun& run, const PlannedMove& planned, const Path& path);
+  void plain(BlockRun& run, const PlannedMove& planned);
   void stay(BlockRun& run, const PlannedMove& planned);
 
   Point point_of(const ModalState& state, const AxisValues& tip) const;

@@ -160,7 +160,7 @@ TEST(FanucCodes, ApplyToolLengths) {
 TEST(FanucCodes, ApplyToolRadii) {
   const char* line = "G1 G41 D1 X20. F100\nY20.\nY40.";
   check({{fanuc, "G10 L12 P1 R3.", line,
-          "feed_rate 100 rotary 100 | feed X20 Y3 Z0 | feed X17 Y20 Z0 | feed X17 Y40 Z0"}});
+          "feed_rate 100 | feed X17 Y0 Z0 | feed X17 Y20 Z0 | feed X17 Y40 Z0"}});
   // Diameters on a Haas, wear on top.
   EXPECT_EQ(commands_of(std::string("G10 L12 P1 R5.\nG10 L13 P1 R1.\n") + line, haas, 2),
             commands_of(std::string("G10 L12 P1 R2.5\nG10 L13 P1 R0.5\n") + line, fanuc, 2));
@@ -201,7 +201,7 @@ TEST(FanucCodes, DwellAndSkip) {
   check({{fanuc, "", "G4 X1.5", "dwell 1.5"},
          {fanuc, "", "G4 P1500.", "dwell 1.5"},
          {haas, "", "G4 P1.5", "dwell 1.5"},
-         {fanuc, "", "G31 X5. F100", "feed_rate 100 rotary 100 | probe toward X5 Y0 Z0"}});
+         {fanuc, "", "G31 X5. F100", "feed_rate 100 | probe toward X5 Y0 Z0"}});
   EXPECT_EQ(kinds_of("G4", fanuc, Severity::error), std::vector<std::string>{"word_missing"});
   EXPECT_EQ(kinds_of("G4 P1.5", fanuc, Severity::error), std::vector<std::string>{"dwell_time"});
   EXPECT_EQ(kinds_of("G4 X-1.", fanuc, Severity::error), std::vector<std::string>{"dwell_time"});
@@ -212,7 +212,7 @@ TEST(FanucCodes, ControlThePath) {
          {fanuc, "G61", "G62", "path continuous 0"},
          {fanuc, "G61", "G63", "path continuous 0"},
          {fanuc, "G61", "G64", "path continuous 0"},
-         {fanuc, "", "M19", "orient 0"}});
+         {fanuc, "", "M19", "orient 0 direction 0"}});
 }
 
 TEST(FanucCodes, AreAcceptedWhenTheyMoveNothing) {

@@ -18,6 +18,13 @@ const ToolOffset* row_of(BlockRun& run, int number, Place place) {
   return row;
 }
 
+// Whether the line's moves are incremental: G90 and G91 on it act later than its G43.
+bool line_is_incremental(const BlockRun& run) {
+  for (const Word& word : run.block.words)
+    if (word.rule && word.rule->group == ModalGroup::distance) return word.rule->code == 910;
+  return run.state.incremental;
+}
+
 // On a Fanuc the words mean where the tip goes, so a new offset without a Z word moves the machine
 // until the tip is where its coordinates say; with a Z word it is part of that move. On a Haas a
 // new offset alone moves nothing.
@@ -29,7 +36,7 @@ void take_length_offset(BlockRun& run, const AxisValues& offset) {
   use_length_offset(run, offset);
   if (run.session.options.dialect == Dialect::haas) return;
   if (run.has('Z') && run.motion_rule) {
-    if (state.incremental) state.tip[Axis::z] = before[Axis::z];
+    if (line_is_incremental(run)) state.tip[Axis::z] = before[Axis::z];
     return;
   }
   state.tip = before;
