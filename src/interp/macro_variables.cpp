@@ -40,6 +40,8 @@ std::optional<double> modal_group(int n, const ModalState& state, bool modal_mac
       return cycle ? state.motion / 10.0 : 80;
     case 10:
       return state.retract_to_r ? 99 : 98;
+    case 11:
+      return state.frame.scaled ? 51 : 50;
     case 12:
       return modal_macro ? 66 : 67;
     case 13:
@@ -48,6 +50,10 @@ std::optional<double> modal_group(int n, const ModalState& state, bool modal_mac
       return state.system <= 6 ? 53 + state.system : 54.1;
     case 15:
       return state.path_mode == canon::PathMode::continuous ? 64 : 61;
+    case 16:
+      return state.frame.turned ? 68 : 69;
+    case 22:
+      return state.frame.any_mirror() ? 51.1 : 50.1;
     default:
       return std::nullopt;
   }
@@ -61,6 +67,7 @@ double Interpreter::Impl::increments_per_unit() const {
 
 std::optional<double> Interpreter::Impl::system_variable(int n, Place place,
                                                          std::optional<Fault>& fault) const {
+  if (const auto offset = offset_variable(n, session_, state_)) return offset;
   if (within(n, 1000, 1999)) return 0;  // signals of the machine's own logic: none
   // What passes between two blocks is not known before the moves are planned: 1 ms per block.
   const auto blocks = static_cast<double>(statistics_.blocks);
@@ -99,6 +106,15 @@ void write_system_variable(BlockRun& run, int n, double value, Place place) {
   const std::string text = comment ? run.text_of(*comment) : std::string();
   const double blocks = run.block_count();
   const double number = is_vacant(value) ? 0 : value;
+  switch (set_offset_variable(n, number, run)) {
+    case VariableWrite::done:
+      return;
+    case VariableWrite::read_only:
+      return run.error("parameter_read_only", place,
+                       "#" + std::to_string(n) + " is a position of the machine and can't be set");
+    case VariableWrite::not_an_offset:
+      break;
+  }
   switch (n) {
     case 3000:
       return run.error("alarm", place,

@@ -69,13 +69,17 @@ std::optional<Vec3> factors_of(BlockRun& run, const CodeRule& rule) {
 
 }  // namespace
 
-// Words of these letters have been read as least increments of a length: 0.001 mm or 0.0001 inch.
+// Digits of length words have been read as least increments already, 0.001 mm or 0.0001 inch;
+// expressions have been rounded as lengths or whole numbers.
 double thousandths(const BlockRun& run, const Word& word) {
+  if (!word.text.constant()) {
+    std::optional<Fault> fault;
+    return evaluate(word.text, run.block.code, run.session.parameters, fault).value_or(word.number);
+  }
   if (!word.no_point) return word.number;
-  const std::uint32_t lengths = axis_letters | letter_bit('I') | letter_bit('J') | letter_bit('K') |
-                                letter_bit('Q') | letter_bit('R');
-  if (!(letter_bit(word.letter) & lengths)) return word.number / 1000;
-  return run.state.unit == canon::Unit::inch ? word.number * 10 : word.number;
+  if (!(letter_bit(word.letter) & increment_letters)) return word.number / 1000;
+  const bool inch = run.state.unit == canon::Unit::inch && !run.session.options.whole_units;
+  return inch ? word.number * 10 : word.number;
 }
 
 void scaling(const CodeRule& rule, BlockRun& run) {

@@ -101,7 +101,7 @@ void return_from_program(const CodeRule& rule, BlockRun& run) {
   if (run.level == Level::main && !block) {
     run.info("program_restart", rule,
              "M99 in the main program starts it again and again; one pass is done here");
-    return program_end(rule, run);
+    return fanuc_end(rule, run);
   }
   run.flow.kind = FlowRequest::Kind::return_;
 }

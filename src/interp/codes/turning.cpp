@@ -22,11 +22,12 @@ AxisValues tip_in_zx(const ModalState& state, double x, double z) {
   program[Axis::x] = x;
   program[Axis::z] = z;
   AxisValues tip = to_tip(state, program);
-  for (const Axis axis : all_axes) {
-    const bool moves =
-        axis == Axis::x || axis == Axis::z || (axis == Axis::y && state.rotation != 0);
-    if (!moves) tip[axis] = state.tip[axis];
-  }
+  AxisSet named;
+  named.add(Axis::x);
+  named.add(Axis::z);
+  const AxisSet moved = moved_by(state, named);
+  for (const Axis axis : all_axes)
+    if (!moved.has(axis)) tip[axis] = state.tip[axis];
   return tip;
 }
 
