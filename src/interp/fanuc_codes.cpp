@@ -114,7 +114,7 @@ constexpr CodeRule mill[] = {
     {'G', 160, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G', 330, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G', 370, G::free,          P::non_modal,     own,    "",      nullptr},
-    {'G', 421, G::free,          P::non_modal,     own,    "",      nullptr},
+    {'G', 412, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G', 422, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G', 431, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G', 434, G::free,          P::non_modal,     own,    "",      nullptr},

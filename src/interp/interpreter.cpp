@@ -391,7 +391,9 @@ ParameterFile Interpreter::Impl::parameters() const {
     keep(number::g92_applied, 11);
     for (int system = 0; system < 9; ++system) keep(number::first_system + 20 * system, 10);
   }
-  for (const int n : kept_numbers_) file.values[n] = parameters_.stored(n);
+  for (const int n : kept_numbers_)
+    if (!table_.dialect().macro_b || n < Parameters::first_system)
+      file.values[n] = parameters_.stored(n);
   if (table_.dialect().macro_b) {
     for (int n = 500; n < Parameters::first_system; ++n) file.values[n] = parameters_.stored(n);
     std::erase_if(file.values, [](const auto& entry) { return is_vacant(entry.second); });
@@ -453,7 +455,7 @@ void Interpreter::Impl::report(const char* kind, Place place, std::string messag
   report(Fault{kind, place, std::move(message)});
 }
 
-void Interpreter::Impl::warn(const Fault& fault, Severity severity) {
+void Interpreter::Impl::warn(const Fault& fault) {
   const SourceSpan at = span_of(fault.place);
   if (reported_.size() >= max_reported || !reported_.emplace(at.text, at.begin, fault.kind).second)
     return;

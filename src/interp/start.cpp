@@ -58,13 +58,14 @@ void Interpreter::Impl::start(const ParameterFile& file) {
   }
   load_parameters(file);
   apply_settings();
-  const double stored = parameters_.stored(number::active_system);
+  const bool fanuc = table_.dialect().macro_b;  // starts with G54 and no shift
+  const double stored = fanuc ? 1 : parameters_.stored(number::active_system);
   const int system = static_cast<int>(std::lround(std::clamp(stored, 1.0, 9.0)));
   parameters_.write(number::active_system, system);
   {
     BlockRun run(session_, scratch_, state_, *this, queue_);
     load_work_system(run, system);
-    if (parameters_.stored(number::g92_applied) != 0)
+    if (!fanuc && parameters_.stored(number::g92_applied) != 0)
       state_.g92 = run.stored_axes(number::g92_offset);
   }
   state_.tip = options_.start;

@@ -275,8 +275,9 @@ TEST(FanucCodes, KeepTheirOffsetsInTheParameterFile) {
   setting.parameters.values[5221] = 7;
   setting.parameters.values[14021] = 9;
   SourceMap sources;
-  const Ran ran = run_program(sources, "G10 L2 P2 Y3.\nG10 L20 P3 Z4.\nM30\n", setting);
-  EXPECT_EQ(ran.parameters.values.at(5221), 7);
+  const Ran ran =
+      run_program(sources, "G91 G10 L2 P1 X1.\nG90 G10 L2 P2 Y3.\nG10 L20 P3 Z4.\nM30\n", setting);
+  EXPECT_EQ(ran.parameters.values.at(5221), 8);
   EXPECT_EQ(ran.parameters.values.at(5242), 3);
   EXPECT_EQ(ran.parameters.values.at(14021), 9);
   EXPECT_EQ(ran.parameters.values.at(14043), 4);
