@@ -84,7 +84,6 @@ constexpr CodeRule common[] = {
     {'M',   4, G::spindle,       P::spindle,       none,   "",      spindle_turn},
     {'M',   5, G::spindle,       P::spindle,       none,   "",      spindle_turn},
     {'M',  19, G::spindle,        P::spindle,        none,   "PRS",   fanuc_orient},
-    {'M',  29, G::free,           P::spindle,        none,   "S",     accepted},
     {'M',  48, G::override_,      P::override_,      none,   "",      override_switch},
     {'M',  49, G::override_,      P::override_,      none,   "",      override_switch},
     {'M',   7, G::coolant,       P::coolant,       none,   "",      coolant},

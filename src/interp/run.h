@@ -27,7 +27,7 @@ struct Session {
   Compensator compensator;
   std::vector<canon::SplineFeed::Point> nurbs;  ///< control points since G5.2, machine coordinates
   double machine_unit_mm = 1;
-  int points_missing = 0;  ///< `decimal_point` warnings told so far
+  int points_missing = 0;      ///< `decimal_point` warnings told so far
   OffsetMemory offsets{};      ///< Fanuc, Haas
   AxisValues skip_position{};  ///< of the last G31, with the tool offset: work coordinates
 };

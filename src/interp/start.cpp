@@ -51,11 +51,7 @@ void Interpreter::Impl::start(const ParameterFile& file) {
     state_.feed_mode = canon::FeedMode::per_revolution;
   }
   state_.tool = options_.tool_in_spindle;
-  if (table_.dialect().macro_b) {
-    state_.lathe_diameter = table_.lathe();
-    if (table_.lathe()) state_.plane = canon::Plane::zx;
-    load_offsets(file);
-  }
+  if (table_.dialect().macro_b) load_offsets(file);
   load_parameters(file);
   apply_settings();
   const bool fanuc = table_.dialect().macro_b;  // starts with G54 and no shift

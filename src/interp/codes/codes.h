@@ -159,6 +159,8 @@ void use_length_offset(BlockRun& run, const AxisValues& offset, int tool = 0);
 /// False with an error when the first move behind G68 or G69 can't be made so; fills in what the
 /// control takes from before G68. `program` is the target, `named` the axes with a word.
 bool first_move_in_frame(BlockRun& run, AxisSet named, AxisValues& program);
+/// False with an error when a drilling cycle can't be made in the program's frame.
+bool frame_allows_cycle(BlockRun& run, const CodeRule& rule);
 /// Takes back mirror image, scaling and rotation (M30).
 void reset_frames(BlockRun& run);
 /// True when no frame of the program acts on these axes; else the error is recorded.

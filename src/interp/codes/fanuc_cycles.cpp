@@ -68,7 +68,7 @@ bool FanucCycle::allowed() {
     run_.error("cycle_error", rule_, "canned cycles can't be used with G93; give G94 or G95");
   else if (run_.machine_coordinates)
     run_.error("g53_error", rule_, "canned cycles can't be used with G53");
-  return run_.ok();
+  return run_.ok() && frame_allows_cycle(run_, rule_);
 }
 
 bool FanucCycle::store_words() {

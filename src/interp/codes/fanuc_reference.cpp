@@ -22,7 +22,7 @@ bool comp_is_off(BlockRun& run, const CodeRule& rule) {
 AxisSet named_axes(const BlockRun& run) {
   AxisSet axes;
   for (const Axis axis : all_axes)
-    if (run.axis(axis)) axes.add(axis);
+    if (run.axis(axis) || run.increment(axis)) axes.add(axis);
   return axes;
 }
 

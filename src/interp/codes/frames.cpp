@@ -237,6 +237,32 @@ bool first_move_in_frame(BlockRun& run, AxisSet named, AxisValues& program) {
   return true;
 }
 
+// The control does not scale pecks and shifts (Q), and G68 leaves open where the first hole is
+// when only one of its coordinates is named.
+bool frame_allows_cycle(BlockRun& run, const CodeRule& rule) {
+  ModalState& state = run.state;
+  const PlaneAxes axes = axes_of(state.plane);
+  const auto unscaled = [&](Axis axis) {
+    return std::fabs(state.frame.factors[static_cast<int>(index(axis))]) == 1;
+  };
+  const bool all = unscaled(axes.first) && unscaled(axes.second) && unscaled(axes.normal);
+  if (run.has('Q') && !all) {
+    run.error("frame_error", rule,
+              name_of(rule) + " with Q while G51 scales is not implemented here; give G50 before");
+    return false;
+  }
+  if (!state.turn_is_fresh && !state.turn_was_left) return true;
+  const bool first = run.axis(axes.first).has_value(), second = run.axis(axes.second).has_value();
+  if (first != second || (state.turn_was_left && state.incremental && first)) {
+    run.error("frame_error", rule,
+              "the first hole behind G68 or G69 needs both coordinates, with G90: what the control "
+              "takes for a missing one depends on a parameter");
+    return false;
+  }
+  if (first) state.turn_is_fresh = state.turn_was_left = false;
+  return true;
+}
+
 bool frame_allows(BlockRun& run, const CodeRule& rule, AxisSet axes) {
   const ModalState& state = run.state;
   if (!state.frame.active()) return true;

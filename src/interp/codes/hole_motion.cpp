@@ -35,11 +35,11 @@ AxisValues HoleMotion::tip_at(double a, double b, double c) const {
   program[axes_.second] = b;
   program[axes_.normal] = c;
   AxisValues tip = to_tip(state_, program);
-  for (const Axis axis : all_axes) {  // others stay to the last bit
-    const bool moves = axis == axes_.first || axis == axes_.second || axis == axes_.normal ||
-                       (state_.rotation != 0 && axis <= Axis::y);
-    if (!moves) tip[axis] = state_.tip[axis];
-  }
+  AxisSet named;
+  for (const Axis axis : {axes_.first, axes_.second, axes_.normal}) named.add(axis);
+  const AxisSet moved = moved_by(state_, named);
+  for (const Axis axis : all_axes)
+    if (!moved.has(axis)) tip[axis] = state_.tip[axis];  // to the last bit
   return tip;
 }
 
