@@ -158,7 +158,7 @@ TEST(FanucCodes, ApplyToolLengths) {
 }
 
 TEST(FanucCodes, ApplyToolRadii) {
-  const char* line = "G1 G41 D1 X20. F100\nY20.\nY40.";
+  const char* line = "G1 G41 D1 X20. F100.\nY20.\nY40.";
   check({{fanuc, "G10 L12 P1 R3.", line,
           "feed_rate 100 | feed X17 Y0 Z0 | feed X17 Y20 Z0 | feed X17 Y40 Z0"}});
   // Diameters on a Haas, wear on top.
