@@ -57,7 +57,7 @@ double increments_of(char letter, bool inch) {
 
 double word_number(BlockRun& run, const Word& word, double value) {
   if (is_vacant(value)) return value;
-  if (is_count_of_cycle(run, word.letter)) return value;
+  if (is_count_of_cycle(run, word.letter) || is_plain_number(run, word.letter)) return value;
   const bool inch = in_inches(run);
   const bool increments = (letter_bit(word.letter) & increment_letters) != 0;
   if (!word.text.constant()) {

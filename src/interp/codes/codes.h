@@ -161,6 +161,8 @@ void use_length_offset(BlockRun& run, const AxisValues& offset, int tool = 0);
 bool first_move_in_frame(BlockRun& run, AxisSet named, AxisValues& program);
 /// False with an error when a drilling cycle can't be made in the program's frame.
 bool frame_allows_cycle(BlockRun& run, const CodeRule& rule);
+/// True when the letter's word on this line is a mere number: Q of G10 (an orientation) and G5.1.
+bool is_plain_number(const BlockRun& run, char letter);
 /// Takes back mirror image, scaling and rotation (M30).
 void reset_frames(BlockRun& run);
 /// True when no frame of the program acts on these axes; else the error is recorded.

@@ -46,6 +46,14 @@ void accepted(const CodeRule& rule, BlockRun& run) {
            name_of(rule) + " is accepted; it moves no axis, and nothing else of it is modelled");
 }
 
+bool is_plain_number(const BlockRun& run, char letter) {
+  if (letter != 'Q') return false;
+  for (const Word& word : run.block.words)
+    if (word.rule && (word.rule->handler == fanuc_data || word.rule->handler == accepted))
+      return true;
+  return false;
+}
+
 void builder_code(const CodeRule& rule, BlockRun& run) {
   canon::UserCode command;
   command.code = rule.code;
