@@ -28,12 +28,12 @@ bool line_is_incremental(const BlockRun& run) {
 // On a Fanuc the words mean where the tip goes, so a new offset without a Z word moves the machine
 // until the tip is where its coordinates say; with a Z word it is part of that move. On a Haas a
 // new offset alone moves nothing.
-void take_length_offset(BlockRun& run, const AxisValues& offset) {
+void take_length_offset(BlockRun& run, const AxisValues& offset, int number) {
   ModalState& state = run.state;
   const AxisValues before = state.tip;
   state.length_suspended = false;
   if (offset == state.length_offset) return;
-  use_length_offset(run, offset);
+  use_length_offset(run, offset, number);
   if (run.session.options.dialect == Dialect::haas) return;
   if (run.has('Z') && run.motion_rule) {
     if (line_is_incremental(run)) state.tip[Axis::z] = before[Axis::z];
@@ -55,7 +55,7 @@ void fanuc_length_offset(const CodeRule& rule, BlockRun& run) {
                      name_of(rule) +
                          " can't be used while radius compensation is on; give G40 "
                          "before");
-  if (rule.code == 490) return take_length_offset(run, {});
+  if (rule.code == 490) return take_length_offset(run, {}, 0);
   const auto h = run.has('H') ? run.integer('H', 0, OffsetMemory::max_tool)
                               : std::optional<int>(state.length_number);
   if (!h) return;
@@ -68,7 +68,7 @@ void fanuc_length_offset(const CodeRule& rule, BlockRun& run) {
     offset[Axis::z] = (rule.code == 440 ? -1 : 1) * row->axes()[Axis::z];
   }
   state.length_number = *h;
-  take_length_offset(run, offset);
+  take_length_offset(run, offset, *h);
 }
 
 void fanuc_radius_comp(const CodeRule& rule, BlockRun& run) {
@@ -127,7 +127,7 @@ void lathe_tool_word(BlockRun& run) {
     run.emit(canon::ChangeTool{tool});
   }
   state.offset_number = number;
-  use_length_offset(run, offset);
+  use_length_offset(run, offset, number);
 }
 
 }  // namespace aircut::interp
