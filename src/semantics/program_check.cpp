@@ -431,6 +431,11 @@ void ProgramCheck::State::on(const canon::WaitInput& c, const Command& command) 
 
 void ProgramCheck::State::on(const canon::UserCode& c, const Command& command) {
   if (context.simulated) return;
+  if (c.letter != 'M')
+    return tell_unknown("not_executed", command.span,
+                        "the lines from here to G11 set data of the control, which is never done "
+                        "here",
+                        "take them out of the program, and give the control's data in the machine");
   if (context.machine) {
     const auto& rules = context.machine->user_codes();
     const auto rule = rules.find(c.code);
