@@ -101,7 +101,11 @@ std::string name_of(const CodeRule& rule);
 struct DialectTraits;
 
 class CodeTable {
+  static constexpr int max_g = 3000;  ///< G numbers × 10
+  static constexpr int max_m = 1000;
+
  public:
+  static constexpr std::size_t slots = max_g + max_m;
   explicit CodeTable(Dialect dialect = Dialect::linuxcnc, bool lathe = false);
   /// What is special about the dialect that the rows are of.
   const DialectTraits& dialect() const { return *dialect_; }
@@ -114,11 +118,12 @@ class CodeTable {
   }
   /// The rows in force, each code once.
   std::vector<const CodeRule*> rules() const;
+  /// A number below `slots` that no other code has.
+  static std::size_t slot(const CodeRule& rule) {
+    return static_cast<std::size_t>(rule.letter == 'G' ? rule.code : max_g + rule.code);
+  }
 
  private:
-  static constexpr int max_g = 3000;  ///< G numbers × 10
-  static constexpr int max_m = 1000;
-
   const DialectTraits* dialect_;
   bool lathe_ = false;
   std::array<const CodeRule*, max_g> g_{};

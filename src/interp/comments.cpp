@@ -55,11 +55,20 @@ bool expand_parameter(std::string_view text, std::size_t& at, int decimals, Para
     at = close + 1;
     return true;
   }
-  int number = 0;
-  while (end < text.size() && text[end] >= '0' && text[end] <= '9' && number < 100'000)
-    number = number * 10 + (text[end++] - '0');
+  int n = 0;
+  while (end < text.size() && text[end] >= '0' && text[end] <= '9' && n < 100'000)
+    n = n * 10 + (text[end++] - '0');
+  if (end == text.size() && end == at + 1) {  // a # at the end is nothing at all
+    at = end;
+    return true;
+  }
   if (end == at + 1) return false;
-  const auto value = parameters.read(number, {}, fault);
+  auto value = n == 0 ? 0.0 : parameters.read(n, {}, fault);
+  // The current point, which a word can't read while radius compensation is on.
+  const int axis = n - number::current_position;
+  if (!value && axis >= 0 && axis < 9)
+    value =
+        parameters.read_named(parameters.intern(std::string("_") + "xyzabcuvw"[axis]), {}, fault);
   out += value ? format(*value, decimals) : "######";
   at = end;
   return true;
@@ -128,6 +137,7 @@ void comment_action(std::string_view text, Place place, BlockRun& run) {
     return run.emit_now(canon::LogFile{LogKind::probe_open, std::string(trimmed(*rest))});
   if (const auto rest = behind(text, "probeclose"))
     return run.emit_now(canon::LogFile{LogKind::probe_close, {}});
+  if (text.empty()) return;
   text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
   run.emit(canon::Message{Kind::comment, std::string(text)});
 }

@@ -95,6 +95,15 @@ void Compensator::flush(BlockRun& run) {
   held_.clear();
 }
 
+// G40: the last move must still run forward from where its corner has put its start.
+void Compensator::finish(BlockRun& run) {
+  if (!held_.empty() && last_ && runs_back(*last_))
+    return run.error("comp_gouge", run.whole(),
+                     "the tool with radius " + mm(run.state.comp.radius) +
+                         " does not fit: the last move is too short behind its corner");
+  flush(run);
+}
+
 void Compensator::leave(BlockRun& run, const PlannedMove& planned) {
   ModalState& state = run.state;
   if (planned.kind == PlannedMove::Kind::arc)
@@ -148,7 +157,7 @@ void Compensator::move(BlockRun& run, const PlannedMove& planned) {
     // On Fanuc the first move in the plane begins it.
     if (is_fanuc(run) && !is_arc && norm(to - point_of(state, state.tip)) < same_point)
       return plain(run, planned);
-    const Point from = point_of(state, state.tip) - nose_shift(state);
+    const Point from = point_of(state, state.tip);
     auto path = entry_path(run, planned, from, to);
     if (!path) return;
     state.comp.entered = true;
@@ -278,8 +287,10 @@ bool Compensator::join(BlockRun& run, Path& next, Point corner, bool is_rapid) {
   double beta =
       -side * std::atan2(cross(before, next.start_normal), dot(before, next.start_normal));
   // Turning back counts as an outside corner, up to a little more than half a turn; before an arc
-  // that bends towards the old element, to a little less, as both cross behind the corner.
-  const bool bends_back = next.is_arc && next.left_turn == (side < 0);
+  // with the tool on its outside, and between such an arc and a line, to a little less, as both
+  // cross behind the corner.
+  const Path& arc = next.is_arc ? next : *last_;
+  const bool bends_back = arc.is_arc && arc.left_turn == (side < 0);
   const double most = std::numbers::pi + (bends_back ? -corner_angle : corner_angle);
   if (beta < most - 2 * std::numbers::pi) beta += 2 * std::numbers::pi;
   if (beta > most) beta -= 2 * std::numbers::pi;
@@ -289,7 +300,7 @@ bool Compensator::join(BlockRun& run, Path& next, Point corner, bool is_rapid) {
     flush(run);
     return true;
   }
-  if (!still_forward(*last_)) {
+  if (runs_back(*last_)) {
     run.error("comp_gouge", run.whole(),
               "the tool with radius " + mm(state.comp.radius) +
                   " does not fit: the move before this one is too short between its corners");
@@ -372,8 +383,14 @@ double Compensator::sweep_of(const Path& arc) const {
 bool Compensator::still_forward(const Path& path) const {
   const Point way = path.end - path.start;
   if (!path.is_arc) return dot(way, path.direction) >= -same_point;
-  if (norm(way) < same_point) return true;
   return sweep_of(path) <= path.sweep + 1e-6;
+}
+
+// True when the corners at both ends of a path have swallowed it. An arc then runs nearly once more
+// round; a joint that is almost straight lengthens it a little.
+bool Compensator::runs_back(const Path& path) const {
+  if (!path.is_arc) return !still_forward(path);
+  return sweep_of(path) > path.sweep + std::numbers::pi;
 }
 
 std::vector<Compensator::Point> Compensator::intersections(const Path& first,
@@ -432,6 +449,7 @@ void Compensator::emit_path(BlockRun& run, const PlannedMove& planned, const Pat
     }
   }
   last_ = path;
+  if (state.comp.radius < same_point) flush(run);  // no corner will move its end
   state.comp.programmed = planned.end;
   state.tip = end;
 }

@@ -30,6 +30,8 @@ class Compensator {
   void move(BlockRun& run, const PlannedMove& planned);
   /// Emits everything that is held back (G40, program end).
   void flush(BlockRun& run);
+  /// Does the same at G40, unless the last move has no room.
+  void finish(BlockRun& run);
   /// Forgets everything: G41 or G42 was given.
   void start();
 
@@ -66,6 +68,7 @@ class Compensator {
   std::vector<Point> intersections(const Path& first, const Path& second) const;
   double sweep_of(const Path& arc) const;
   bool still_forward(const Path& path) const;
+  bool runs_back(const Path& path) const;
   void emit_path(BlockRun& run, const PlannedMove& planned, const Path& path);
   void plain(BlockRun& run, const PlannedMove& planned);
   void stay(BlockRun& run, const PlannedMove& planned);

@@ -9,7 +9,6 @@
 namespace aircut::interp {
 
 void Interpreter::Impl::start_contour(const FlowRequest& request, const CodeRule& rule) {
-  ProgramFile* file = frames_.back().file;
   const std::string label = std::to_string(request.label);
   const Place place = block_->find('Q') ? block_->find('Q')->place : Place{0, block_->length};
   if (contour_frame_ >= 0)
@@ -20,13 +19,13 @@ void Interpreter::Impl::start_contour(const FlowRequest& request, const CodeRule
   reading->rule = &rule;
   reading->before = state_;
   if (request.is_range) return start_contour_range(request, std::move(reading));
-  file = find_file_with_sub(label);
-  if (!file) file = open_sub_file(label, place);
+  ProgramFile* file = find_sub(label, *block_, place);
   if (!file) return;
   const int at = file->flow->find_sub(label);
   FlowEntry& sub = file->flow->entries[static_cast<std::size_t>(at)];
   if (sub.problem_kind) return report(sub.problem_kind, place, sub.problem);
   if (!sub.passed && file == frames_.front().file) sub.called_ahead = true;
+  sub.passed = true;
   const std::vector<double> no_arguments;
   if (!enter_sub(*file, at, &no_arguments, name_of(rule) + " contour o" + label)) return;
   frames_.back().reading = std::move(reading);

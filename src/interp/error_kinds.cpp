@@ -68,6 +68,10 @@ const std::vector<KindText>& error_kinds() {
       {"contour_error", "a contour that a turning cycle can't cut",
        "G70, G71, G72 and G73 need a contour of G0 to G3 moves in X and Z that does not go back on "
        "its way. Example: `G71 Q100` with a sub o100 that goes to Z-10 and back to Z-5."},
+      {"control_fault", "the control itself goes wrong here",
+       "Warning. LinuxCNC is known to mishandle this, and the result shows what it does: a do loop "
+       "behind a break runs once only; G10 L2 with a new R while G92 or G52 is in force misplaces "
+       "the current point. Example: `G92 X5` and then `G10 L2 P1 R90`. Write it in another way."},
       {"comp_rapid", "a rapid begins or ends radius compensation",
        "Warning. The first move after G41/G42 and the first after G40 run obliquely to and from "
        "the "

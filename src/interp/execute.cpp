@@ -1,5 +1,7 @@
 // A block's words: values first, then the checks that the table gives for nothing (clashes in a
 // group, axis words, words that nobody uses), then the codes in the order of their phases.
+#include <algorithm>
+
 #include "base/text.h"
 #include "interp/codes/codes.h"
 #include "interp/dialect.h"
@@ -34,20 +36,40 @@ void BlockExecutor::execute(std::string_view line) {
   if (run_.state.data_setting && !ends_data()) return;
   if (!collect() || !check_axes() || !find_motion() || !check_words()) return;
   for (std::size_t i = 0; i < count_ && run_.ok(); ++i) perform(items_[i]);
+  if (!run_.ok()) return;
+  for (std::size_t i = 0; i < count_; ++i)
+    if (items_[i].rule) ++run_.session.executed[CodeTable::slot(*items_[i].rule)];
 }
 
-// Words and settings read the parameters as they are before the line.
+// Words and settings read the parameters as they are before the line. But a name that is new is 0
+// from where the line sets it: `#<n>=[#<n>+1]` gives 1.
+std::optional<double> BlockExecutor::value_of(const Value& value) {
+  Parameters& parameters = run_.session.parameters;
+  while (true) {
+    std::optional<Fault> fault;
+    const auto number = interp::evaluate(value, block_.code, parameters, fault);
+    if (number) return number;
+    const bool undefined = std::string_view(fault->kind) == "parameter_undefined";
+    const auto is_new = [&](const Setting& setting) {
+      return undefined && setting.name >= 0 && setting.place.begin < fault->place.begin &&
+             !parameters.exists(setting.name) && !parameters.read_only_name(setting.name);
+    };
+    const auto found = std::find_if(block_.settings.begin(), block_.settings.end(), is_new);
+    if (found == block_.settings.end()) {
+      run_.fault_ = fault;
+      return std::nullopt;
+    }
+    parameters.write_named(found->name, 0);
+  }
+}
+
 bool BlockExecutor::evaluate() {
   if (run_.session.table.dialect().macro_b) return evaluate_macro_b();
   if (!block_.has_expressions) return true;
-  std::optional<Fault> fault;
   for (Word& word : block_.words) {
     if (word.text.constant()) continue;
-    const auto value = interp::evaluate(word.text, block_.code, run_.session.parameters, fault);
-    if (!value) {
-      run_.fault_ = fault;
-      return false;
-    }
+    const auto value = value_of(word.text);
+    if (!value) return false;
     word.number = *value;
     if (word.letter == 'G' || word.letter == 'M')
       word.rule = run_.session.table.find(word.letter, *value);
@@ -62,13 +84,9 @@ bool BlockExecutor::settings() {
   // A line has room for no more settings than this: each takes four characters.
   std::array<std::pair<std::int32_t, double>, 64> set;  // number, or -1 - name
   std::size_t count = 0;
-  std::optional<Fault> fault;
   for (const Setting& setting : block_.settings) {
-    const auto value = interp::evaluate(setting.value, block_.code, parameters, fault);
-    if (!value) {
-      run_.fault_ = fault;
-      return false;
-    }
+    const auto value = value_of(setting.value);
+    if (!value) return false;
     if (setting.name >= 0) {
       if (parameters.read_only_name(setting.name)) {
         run_.error("parameter_read_only", setting.place,
@@ -79,11 +97,8 @@ bool BlockExecutor::settings() {
       set[count++] = {-1 - setting.name, *value};
       continue;
     }
-    const auto target = interp::evaluate(setting.target, block_.code, parameters, fault);
-    if (!target) {
-      run_.fault_ = fault;
-      return false;
-    }
+    const auto target = value_of(setting.target);
+    if (!target) return false;
     const auto index = as_integer(*target);
     if (!index || !Parameters::in_range(*index)) {
       run_.error("parameter_range", setting.place,

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
@@ -48,8 +49,9 @@ void Interpreter::Impl::execute_oword(Block& block) {
     case Keyword::if_:
       return branch_if(block, at);
     case Keyword::elseif:
+      return pass_branches(block, at);
     case Keyword::else_:
-      return jump_behind(entry(entry(at).partner));  // a branch was done
+      return jump_behind(entry(entry(at).partner));
     case Keyword::endif:
       return;
     case Keyword::while_:
@@ -138,6 +140,17 @@ void Interpreter::Impl::take_branch(int from) {
   }
 }
 
+// A branch was done. The control evaluates the conditions of the others nevertheless.
+void Interpreter::Impl::pass_branches(Block& block, int at) {
+  condition(block);
+  for (int next = entry(at).next; entry(next).keyword == Keyword::elseif && !done_;
+       next = entry(next).next) {
+    jump_to(entry(next));
+    if (Block* line = fetch()) condition(*line);
+  }
+  jump_behind(entry(entry(at).partner));
+}
+
 // ---- loops -----------------------------------------------------------------------------------
 
 // The running loop of the entry; loops inside it that were left by a jump are forgotten.
@@ -174,13 +187,18 @@ void Interpreter::Impl::do_while(Block& block, int at) {
   Loop* loop = loop_at(head);
   if (!loop) return;
   const auto value = condition(block);
-  if (!value || *value == 0) return frames_.back().loops.pop_back();
+  const bool left = std::exchange(break_pending_, false);
+  if (left && value && *value != 0)
+    warn(Fault{"control_fault", block.oword.place,
+               "the control runs this do loop once only, because a break has left a while loop "
+               "before it; use while instead of do"});
+  if (left || !value || *value == 0) return frames_.back().loops.pop_back();
   if (next_pass(*loop)) jump_behind(entry(head));
 }
 
 void Interpreter::Impl::enter_repeat(Block& block, int at) {
   const auto value = condition(block);
-  const double rounded = value ? std::round(*value) : 0;
+  const double rounded = value ? std::nearbyint(*value) : 0;  // halves to the even number
   if (rounded <= 0) return jump_behind(entry(entry(at).partner));
   Loop loop;
   loop.entry = at;
@@ -207,6 +225,7 @@ void Interpreter::Impl::leave_or_continue(Block& block, int at) {
   const FlowEntry& end = entry(entry(head).partner);
   if (block.oword.keyword == Keyword::continue_) return jump_to(end);
   frames_.back().loops.pop_back();
+  if (entry(head).keyword == Keyword::while_) break_pending_ = true;
   jump_behind(end);
 }
 

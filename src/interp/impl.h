@@ -98,6 +98,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void resume(const ProbeHit& hit);
   ParameterFile parameters() const;
   Statistics statistics() const { return statistics_; }
+  std::vector<CodeCount> code_counts() const;
 
   const SourceSpan& span() override;
   std::optional<BlockPlace> find_block(std::int64_t number) override;
@@ -142,6 +143,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   FlowIndex& flow_of(ProgramFile& file);
   void branch_if(Block& block, int at);
   void take_branch(int from);
+  void pass_branches(Block& block, int at);
   void enter_while(Block& block, int at);
   void enter_repeat(Block& block, int at);
   void end_loop(Block& block, int at);
@@ -188,8 +190,9 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void leave_sub(Block& block);
   void return_fanuc();
   void return_from_call();
-  ProgramFile* find_file_with_sub(const std::string& name);
-  ProgramFile* open_sub_file(const std::string& name, Place place);
+  ProgramFile* find_known_sub(const std::string& name);
+  ProgramFile* find_sub(const std::string& name, const Block& block, Place place);
+  ProgramFile* open_sub_file(const std::string& name, Place place, bool& found);
   std::vector<std::string> sub_folders() const;
   bool push_frame(Frame frame, std::string what, const std::vector<double>* arguments = nullptr);
   bool count_file(ProgramFile& file, Place place);
@@ -252,6 +255,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   double value_ = 0;  ///< #<_value>
   bool value_returned_ = false;
   bool percent_seen_ = false;
+  bool break_pending_ = false;  ///< a while loop was left by break: the next do loop runs once
   std::uint64_t idle_blocks_ = 0;
   std::size_t cached_blocks_ = 0;
   std::optional<ModalMacro> modal_macro_;
@@ -287,6 +291,7 @@ class BlockExecutor {
     char letter;
   };
 
+  std::optional<double> value_of(const Value& value);
   bool evaluate();
   bool evaluate_macro_b();
   bool settings();

@@ -110,6 +110,14 @@ class Interpreter {
   };
   Statistics statistics() const;
 
+  struct CodeCount {
+    std::string code;  ///< `G5.1`; M100 stands for all user codes
+    std::uint64_t count = 0;
+  };
+  /// Every code that the dialect knows with the number of blocks in which it acted, whether given
+  /// or modal. Lines that are nothing but a G0 or G1 move are not counted.
+  std::vector<CodeCount> code_counts() const;
+
  private:
   class Impl;
   std::unique_ptr<Impl> impl_;

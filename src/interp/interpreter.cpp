@@ -43,6 +43,10 @@ void Interpreter::resume(const ProbeHit& hit) { impl_->resume(hit); }
 ParameterFile Interpreter::parameters() const { return impl_->parameters(); }
 Interpreter::Statistics Interpreter::statistics() const { return impl_->statistics(); }
 
+std::vector<Interpreter::CodeCount> Interpreter::code_counts() const {
+  return impl_->code_counts();
+}
+
 std::optional<canon::Command> Interpreter::Impl::next() {
   while (head_ >= queue_.size()) {
     queue_.clear();
@@ -364,6 +368,13 @@ void Interpreter::Impl::execute_words(Block& block) {
       start_contour(run.flow, *run.flow.cycle);
       break;
   }
+}
+
+std::vector<Interpreter::CodeCount> Interpreter::Impl::code_counts() const {
+  std::vector<CodeCount> counts;
+  for (const CodeRule* rule : table_.rules())
+    counts.push_back({name_of(*rule), session_.executed[CodeTable::slot(*rule)]});
+  return counts;
 }
 
 void Interpreter::Impl::resume(const ProbeHit& hit) {

@@ -27,9 +27,10 @@ struct Session {
   Compensator compensator;
   std::vector<canon::SplineFeed::Point> nurbs;  ///< control points since G5.2, machine coordinates
   double machine_unit_mm = 1;
-  int points_missing = 0;      ///< `decimal_point` warnings told so far
-  OffsetMemory offsets{};      ///< Fanuc, Haas
-  AxisValues skip_position{};  ///< of the last G31, with the tool offset: work coordinates
+  std::vector<std::uint64_t> executed;  ///< per slot of the table
+  int points_missing = 0;               ///< `decimal_point` warnings told so far
+  OffsetMemory offsets{};               ///< Fanuc, Haas
+  AxisValues skip_position{};           ///< of the last G31, with the tool offset: work coordinates
 };
 
 /// What a block asks of the flow of control once it has succeeded.
@@ -85,11 +86,12 @@ class BlockRun {
  public:
   BlockRun(Session& s, const Block& b, ModalState& next, Site& site,
            std::vector<canon::Command>& out)
-      : session(s), block(b), state(next), site_(site), out_(out) {}
+      : session(s), block(b), state(next), plane_before(next.plane), site_(site), out_(out) {}
 
   Session& session;
   const Block& block;
   ModalState& state;
+  canon::Plane plane_before;  ///< at the start of the line
   FlowRequest flow;
   StackRequest stack;
   Level level = Level::main;

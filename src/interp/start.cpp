@@ -34,7 +34,8 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
                tools_,
                {},
                {},
-               options_.machine_unit == canon::Unit::inch ? 25.4 : 1.0} {
+               options_.machine_unit == canon::Unit::inch ? 25.4 : 1.0,
+               std::vector<std::uint64_t>(CodeTable::slots)} {
   if (options_.limits.max_depth == 0) options_.limits.max_depth = table_.dialect().max_depth;
   options_.spindles = std::clamp(options_.spindles, 1, max_spindles);
   frames_.emplace_back();

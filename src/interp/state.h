@@ -25,8 +25,9 @@ struct SpindleState {
   bool override_on = true;
 };
 
-/// What a canned cycle remembers from line to line. In program units of the lines' numbers
-/// converted to mm; along the plane's normal axis in program coordinates.
+/// What a canned cycle remembers from line to line: the numbers of the words as they stand there,
+/// whatever the unit (Fanuc-like dialects: mm); levels are program coordinates along the plane's
+/// normal axis.
 struct CycleState {
   int code = 0;                                ///< of the cycle group in force, 0 outside
   double initial = 0;                          ///< normal coordinate when the group began
@@ -93,9 +94,9 @@ struct ModalState {
   canon::Plane plane = canon::Plane::xy;
   canon::FeedMode feed_mode = canon::FeedMode::per_minute;
   canon::PathMode path_mode = canon::PathMode::continuous;
-  double path_tolerance = 0;
-  double naive_tolerance = 0;
-  bool incremental = false;       ///< G91
+  double path_tolerance = 0;   ///< the numbers of P and Q as programmed; cycles give them again in
+  double naive_tolerance = 0;  ///< the unit then in force
+  bool incremental = false;    ///< G91
   bool absolute_centres = false;  ///< G90.1
   bool retract_to_r = true;       ///< G99
   bool lathe_diameter = false;    ///< G7

@@ -98,28 +98,55 @@ std::optional<std::vector<double>> Interpreter::Impl::arguments_of(const Block& 
   return values;
 }
 
-// Among the texts that are open: this one first, then in the order in which they were opened.
-ProgramFile* Interpreter::Impl::find_file_with_sub(const std::string& name) {
-  ProgramFile* here = frames_.back().file;
-  if (flow_of(*here).find_sub(name) >= 0) return here;
-  ProgramFile* main = frames_.front().file;
-  if (flow_of(*main).find_sub(name) >= 0) return main;
+// A sub is known once its definition was passed or it was called.
+ProgramFile* Interpreter::Impl::find_known_sub(const std::string& name) {
+  const auto knows = [&](ProgramFile* file) {
+    const int at = flow_of(*file).find_sub(name);
+    return at >= 0 && file->flow->entries[static_cast<std::size_t>(at)].passed;
+  };
+  if (ProgramFile* here = frames_.back().file; knows(here)) return here;
+  if (ProgramFile* main = frames_.front().file; knows(main)) return main;
   for (ProgramFile* file : opened_order_)
-    if (flow_of(*file).find_sub(name) >= 0) return file;
+    if (knows(file)) return file;
   return nullptr;
 }
 
-ProgramFile* Interpreter::Impl::open_sub_file(const std::string& name, Place place) {
-  if (!is_safe_name(name)) {
+// A known sub, else the one in a file of its name, else further down in this text. What stands
+// above and was jumped over is not found, as on the control.
+ProgramFile* Interpreter::Impl::find_sub(const std::string& name, const Block& block, Place place) {
+  if (ProgramFile* file = find_known_sub(name)) return file;
+  ProgramFile* here = frames_.back().file;
+  const int ahead = flow_of(*here).find_sub(name);
+  const bool is_ahead =
+      ahead >= 0 && here->flow->entries[static_cast<std::size_t>(ahead)].begin > block.begin;
+  if (is_safe_name(name)) {
+    bool found = false;
+    ProgramFile* file = open_sub_file(name, place, found);
+    if (found) return file;
+  } else if (!is_ahead) {
     report("path_refused", place,
            "the name of a sub's file can't be an absolute path or contain '..'; put the file into "
            "the program's folder or the sub path");
     return nullptr;
   }
+  if (is_ahead) return here;
+  const std::string label = written_label(printable(name));
+  report("sub_missing", place,
+         ahead >= 0 ? "the definition of " + label +
+                          " stands above, but the control has not come past it; move it below "
+                          "this call, or to where it is passed before"
+                    : "there is no sub " + label + " in this program and no file '" +
+                          printable(name) + ".ngc' in its folder or the sub path");
+  return nullptr;
+}
+
+// `found` tells whether there is such a file; it may lack the sub, which is an error.
+ProgramFile* Interpreter::Impl::open_sub_file(const std::string& name, Place place, bool& found) {
   for (const std::string& folder : sub_folders()) {
     if (!reader_) break;
     const auto text = reader_(folder + name + ".ngc");
     if (!text) continue;
+    found = true;
     ProgramFile& file = file_for(**text);
     if (!count_file(file, place)) return nullptr;
     if (flow_of(file).find_sub(name) >= 0) return &file;
@@ -128,9 +155,6 @@ ProgramFile* Interpreter::Impl::open_sub_file(const std::string& name, Place pla
                written_label(printable(name)) + " sub'; the sub must have the name of its file");
     return nullptr;
   }
-  report("sub_missing", place,
-         "there is no sub " + written_label(printable(name)) + " in this program and no file '" +
-             printable(name) + ".ngc' in its folder or the sub path");
   return nullptr;
 }
 
@@ -159,8 +183,7 @@ void Interpreter::Impl::call(Block& block) {
   if (!label) return;
   const auto arguments = arguments_of(block);
   if (!arguments) return;
-  ProgramFile* file = find_file_with_sub(*label);
-  if (!file) file = open_sub_file(*label, block.oword.place);
+  ProgramFile* file = find_sub(*label, block, block.oword.place);
   if (!file) return;
   const int at = file->flow->find_sub(*label);
   FlowEntry& sub = file->flow->entries[static_cast<std::size_t>(at)];
@@ -169,6 +192,7 @@ void Interpreter::Impl::call(Block& block) {
     return;
   }
   if (!sub.passed && file == frames_.front().file) sub.called_ahead = true;
+  sub.passed = true;
   std::string what = written_label(*label) + " call";
   for (const double value : *arguments) what += " [" + shortest(value) + "]";
   enter_sub(*file, at, &*arguments, std::move(what));
@@ -188,9 +212,8 @@ bool Interpreter::Impl::push_frame(Frame frame, std::string what,
                                    const std::vector<double>* arguments) {
   if (static_cast<int>(frames_.size()) > options_.limits.max_depth) {
     report("call_depth", {0, block_->length},
-           "more than " + std::to_string(options_.limits.max_depth) +
-               " calls inside each other" + circle_of_calls(frames_) +
-               "; does the recursion end?");
+           "more than " + std::to_string(options_.limits.max_depth) + " calls inside each other" +
+               circle_of_calls(frames_) + "; does the recursion end?");
     statistics_.limit_reached = true;
     stop();
     return false;
@@ -230,6 +253,7 @@ void Interpreter::Impl::return_from_call() {
   if (frame.restore_at_return && frame.saved) {
     BlockRun run(session_, *block_, state_, *this, queue_);
     restore_state(run, *frame.saved);
+    if (!run.ok()) report(*run.fault());
     parameters_.commit();
   }
   parameters_.leave();

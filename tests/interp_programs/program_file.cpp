@@ -193,6 +193,7 @@ Outcome run_program(const ProgramFile& program, bool keep_going, const std::stri
   }
   outcome.rs274 += writer.finish();
   outcome.stopped_by_limit = interpreter.statistics().limit_reached;
+  for (const auto& [code, count] : interpreter.code_counts()) outcome.codes[code] += count;
   for (const Diagnostic& d : diagnostics.list())
     outcome.found.push_back(
         {d.span.text == &text ? d.span.line : 0, d.kind, format_gcc(d), d.severity});

@@ -53,6 +53,7 @@ struct Outcome {
   std::vector<Found> found;
   std::string rs274;  ///< the trace in the reference's form
   bool stopped_by_limit = false;
+  std::map<std::string, std::uint64_t> codes;  ///< how often each code of the table acted
 };
 
 /// Runs a program. Sub files are looked for in `sub_folder`.

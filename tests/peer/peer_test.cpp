@@ -9,7 +9,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "peer/generator.h"
@@ -23,22 +25,51 @@ namespace fs = std::filesystem;
 const std::string programs_folder = AIRCUT_SOURCE_DIR "/tests/interp_programs/programs";
 const std::string sub_folder = programs_folder + "/subs";
 
-/// A difference without its numbers: `call own: DWELL reference: DWELL`.
+/// A difference without its numbers: `call own: DWELL reference: DWELL`, `only own refuses: …` with
+/// the text that belongs to the refusal.
 std::string kind_of(const std::string& difference) {
-  if (!difference.starts_with("call ")) return difference.substr(0, difference.find(':'));
   std::string kind;
-  bool in_name = true;
   std::istringstream in(difference);
   for (std::string line; std::getline(in, line);) {
-    if (line.find("own:") == std::string::npos && line.find("reference:") == std::string::npos)
-      continue;
+    if (line.starts_with("call ")) continue;
+    const bool call = line.starts_with("    own: ") || line.starts_with("    reference: ");
+    if (!call && !kind.empty() && !kind.starts_with("only own has") &&
+        !kind.starts_with("stopped at"))
+      break;
+    const bool is_source = line.starts_with("N");  // the reference repeats the line
+    if (is_source) continue;
     for (const char c : line) {
-      if (c == '(') in_name = false;
-      if (in_name) kind += c;
+      if (call && c == '(') break;
+      if (c < '0' || c > '9') kind += c;
     }
-    in_name = true;
   }
-  return kind;
+  return kind.substr(0, 160);
+}
+
+/// Codes that the two can't be compared on, with docs/peer.md's reason.
+const std::set<std::string> not_compared = {"G87", "G88",  // refused, undefined there
+                                            "G70", "G71",   "G71.1", "G71.2",
+                                            "G72", "G72.1", "G72.2",  // lathe roughing
+                                            "M100"};                  // needs an installed program
+
+/// Differences that docs/peer.md accepts and that the grammar can't well avoid.
+bool is_accepted(const Trace& own, const Trace& reference, const std::string& difference) {
+  const auto own_says = [&](const char* text) {
+    return own.error_text.find(text) != std::string::npos;
+  };
+  const bool elsewhere = difference.starts_with("refused at another line");
+  const bool refused = elsewhere || difference.starts_with("only own refuses") ||
+                       difference.starts_with("stopped at");
+  // A contour's move that is too short for the tool: the reference lets it run backwards, or finds
+  // out with the next move.
+  if (refused && own_says("too short between its corners")) return true;
+  if (elsewhere && own_says("comp_gouge") &&
+      reference.error_text.find("gouging") != std::string::npos)
+    return true;
+  // Tapping outside of G17.
+  if (refused && own_says("the control moves the wrong axes")) return true;
+  // G43.2 with axis words instead of H: newer than the reference.
+  return reference.error_text.find("Requested tool -1 not found") != std::string::npos;
 }
 
 int number_from(const char* name, int otherwise) {
@@ -52,24 +83,32 @@ class Peer : public ::testing::Test {
     if (number_from("AIRCUT_NO_PEER", 0) == 1) GTEST_SKIP() << "AIRCUT_NO_PEER=1";
     ASSERT_TRUE(reference_is_installed())
         << "rs274 is not installed (Debian: linuxcnc-uspace); AIRCUT_NO_PEER=1 skips these tests";
-    folder_ = fs::temp_directory_path() / ("aircut_peer_" + std::to_string(::getpid()));
+    // In memory where that is possible: each program is a handful of files.
+    const fs::path memory = "/dev/shm";
+    const fs::path parent =
+        ::access(memory.c_str(), W_OK) == 0 ? memory : fs::temp_directory_path();
+    folder_ = parent / ("aircut_peer_" + std::to_string(::getpid()));
     reference_.emplace(folder_.string(), sub_folder);
   }
   void TearDown() override {
+    reference_.reset();
     std::error_code ignored;
     fs::remove_all(folder_, ignored);
   }
 
-  std::optional<std::string> compare(const ProgramFile& program) const {
+  Trace own(const ProgramFile& program) const {
     ProgramFile bounded = program;
     // A loop that never ends is cut off on both sides.
     bounded.options.limits.max_blocks = 2'000'000;
     bounded.options.limits.max_idle_blocks = 1'000'000;
-    return difference(own_trace(bounded, sub_folder), reference_->run(bounded));
+    return own_trace(bounded, sub_folder);
+  }
+  std::optional<std::string> compare(const ProgramFile& program) {
+    return difference(own(program), reference_->run(program));
   }
 
   /// Reports a difference with the smallest program that still shows one.
-  void report(const ProgramFile& program, const std::string& what) const {
+  void report(const ProgramFile& program, const std::string& what) {
     // The same kind of difference, so that a shorter program doesn't drift to another one.
     const auto differs = [&](const std::string& text) {
       ProgramFile fewer = program;
@@ -135,18 +174,43 @@ TEST_F(Peer, RefusesTheSameLines) {
 TEST_F(Peer, AgreesOnProgramsMadeByChance) {
   const int count = number_from("AIRCUT_PEER_PROGRAMS", 300);
   const int first = number_from("AIRCUT_PEER_SEED", 1);
-  int differing = 0, with_errors = 0;
-  for (int i = 0; i < count && differing < number_from("AIRCUT_PEER_REPORTS", 10); ++i) {
+  int with_errors = 0, accepted = 0;
+  std::map<std::string, int> differing;  // by kind; the first of each is reported
+  std::map<std::string, std::uint64_t> codes;
+  const auto most = static_cast<std::size_t>(number_from("AIRCUT_PEER_REPORTS", 10));
+  for (int i = 0; i < count && differing.size() < most; ++i) {
     const auto seed = static_cast<std::uint32_t>(first + i);
     const ProgramFile program = plain("seed " + std::to_string(seed), generate_program(seed));
-    with_errors += own_trace(program, sub_folder).error;
-    const auto what = compare(program);
-    if (!what) continue;
-    ++differing;
-    report(program, *what);
+    const Trace trace = own(program);
+    with_errors += trace.error;
+    for (const auto& [code, executed] : trace.codes) codes[code] += executed;
+    const Trace reference = reference_->run(program);
+    auto what = difference(trace, reference);
+    if (what && is_accepted(trace, reference, *what)) {
+      ++accepted;
+      what.reset();
+    }
+    if (what && differing[kind_of(*what)]++ == 0) report(program, *what);
   }
   // Programs that are all refused at once would compare nothing.
   EXPECT_LT(with_errors, count * 2 / 3 + 1);
+  EXPECT_LT(accepted, count / 20 + 1);
+  std::string never;
+  std::uint64_t least = ~std::uint64_t{0};
+  for (const auto& [code, executed] : codes) {
+    if (executed == 0 && !not_compared.contains(code)) never += " " + code;
+    if (executed != 0) least = std::min(least, executed);
+  }
+  std::cout << count << " programs, " << with_errors << " of them refused, " << accepted
+            << " with an accepted deviation; each code acted at least " << least
+            << " times; never:" << (never.empty() ? " none" : never) << "\n";
+  if (std::getenv("AIRCUT_PEER_CODES")) {
+    for (const auto& [code, executed] : codes) std::cout << code << " " << executed << "\n";
+    for (const auto& [kind, times] : differing) std::cout << times << " times: " << kind << "\n";
+  }
+  if (count >= 1000) {
+    EXPECT_EQ(never, "") << "codes that the generator never reaches";
+  }
 }
 
 /// Examples that meet an accepted deviation (docs/peer.md).
@@ -179,7 +243,11 @@ TEST_F(Peer, AgreesOnTheExamplesOfLinuxCnc) {
         plain(path.filename().string(), std::string(std::istreambuf_iterator<char>(in), {}));
     if (!deviation_of(program.name).empty()) continue;
     ++compared;
-    if (const auto what = compare(program)) ADD_FAILURE() << program.name << " differs: " << *what;
+    const Trace trace = own(program);
+    const Trace reference = reference_->run(program);
+    const auto what = difference(trace, reference);
+    if (what && !is_accepted(trace, reference, *what))
+      ADD_FAILURE() << program.name << " differs: " << *what;
   }
   EXPECT_GT(compared, 10);
 }

@@ -1,13 +1,12 @@
 #include "peer/reference.h"
 
-#include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -27,33 +26,6 @@ std::string read_file(const fs::path& path) {
   std::ostringstream out;
   out << in.rdbuf();
   return out.str();
-}
-
-/// Runs a command with its outputs in files; gives its exit status.
-int run_command(std::vector<std::string> words, const fs::path& folder) {
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
-  const std::string out = folder / "stdout", err = folder / "stderr", in = folder.string();
-  const pid_t child = ::fork();
-  if (child < 0) return -1;
-  if (child == 0) {
-    const int out_fd = ::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    const int err_fd = ::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
-    const int null_fd = ::open("/dev/null", O_RDONLY);
-    if (out_fd < 0 || err_fd < 0 || null_fd < 0 || ::chdir(in.c_str()) != 0) ::_exit(126);
-    // It keeps its tools in a file in the home folder, which all runs would share.
-    ::setenv("HOME", in.c_str(), 1);
-    ::dup2(null_fd, 0);
-    ::dup2(out_fd, 1);
-    ::dup2(err_fd, 2);
-    ::execvp(argv[0], argv.data());
-    ::_exit(127);
-  }
-  int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-  }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 /// Splits a line of a trace, `    8 N10    CALL(…)`; a line of the console is kept whole.
@@ -83,7 +55,7 @@ std::string name_of(const Call& call) { return call.text.substr(0, call.text.fin
 
 bool is_ignored(const Call& call) {
   static constexpr std::array ignored = {"START_CHANGE", "ON_RESET", "SET_TOOL_TABLE_ENTRY",
-                                         "FINISH"};
+                                         "RELOAD_TOOLDATA", "FINISH"};
   const std::string name = name_of(call);
   if (std::find(ignored.begin(), ignored.end(), name) != ignored.end()) return true;
   if (name.starts_with("SPINDLE.")) return true;  // SPINDLE.0.WAIT_ORIENT_COMPLETE
@@ -166,36 +138,61 @@ Reference::Reference(std::string folder, std::string sub_folder) : folder_(std::
   write_file(fs::path(folder_) / "machine.ini", ini_text(folder_, sub_folder));
 }
 
-Trace Reference::run(const ProgramFile& program) const {
+Trace Reference::run(const ProgramFile& program) {
   const fs::path folder(folder_);
-  write_file(folder / "tool.tbl", program.tools);
+  const bool block_delete = program.options.block_delete;
+  if (!server_ || tools_ != program.tools || block_delete_ != block_delete) {
+    tools_ = program.tools;
+    block_delete_ = block_delete;
+    write_file(folder / "tool.tbl", tools_);
+    server_.reset();
+    server_.emplace(folder_, block_delete);
+  }
   write_file(folder / "program.ngc", program.text);
   std::string var;
   for (const auto& [number, value] : program.parameters.values)
     var += std::to_string(number) + "\t" + fixed(value, 6) + "\n";
   write_file(folder / "start.var", var);
-  std::vector<std::string> words = {"timeout",     "-k", "1",        "10", "rs274",    "-i",
-                                    "machine.ini", "-t", "tool.tbl", "-v", "start.var"};
-  if (program.options.block_delete) words.push_back("-b");
-  words.insert(words.end(), {"-g", "program.ngc"});
-  const int status = run_command(words, folder);
+  const int status = server_->run();
   std::string said = read_file(folder / "stderr");
-  if (said.starts_with("executing\n")) said.erase(0, 10);
   Trace trace;
   trace.calls = parse_trace(read_file(folder / "stdout"));
   trace.error_text = said;
-  trace.timed_out = status == 124 || status == 137;
+  // Killed by its alarm clock, or for the length of its trace.
+  trace.timed_out =
+      WIFSIGNALED(status) && (WTERMSIG(status) == SIGALRM || WTERMSIG(status) == SIGXFSZ);
   trace.error = status != 0;
   return trace;
 }
 
+/// Kinds of problems that the reference meets at another line: where it gives up the search for the
+/// other half of a construct.
+bool ends_where_it_stands(const std::string& kind) {
+  static constexpr std::array elsewhere = {"label_missing", "program_end_missing", "sub_missing",
+                                           "flow_nesting",  "percent_missing",     "path_refused"};
+  return std::find(elsewhere.begin(), elsewhere.end(), kind) == elsewhere.end();
+}
+
+/// Line `number` without blanks around it, or nothing for line 0.
+std::string line_of(const std::string& text, std::uint32_t number) {
+  std::istringstream in(text);
+  std::string line;
+  for (std::uint32_t i = 0; i < number; ++i) std::getline(in, line);
+  const auto first = line.find_first_not_of(" \t");
+  return first == std::string::npos ? std::string()
+                                    : line.substr(first, line.find_last_not_of(" \t") - first + 1);
+}
+
 Trace own_trace(const ProgramFile& program, const std::string& sub_folder) {
-  const Outcome outcome = run_program(program, false, sub_folder);
+  Outcome outcome = run_program(program, false, sub_folder);
   Trace trace;
+  trace.codes = std::move(outcome.codes);
   trace.calls = parse_trace(outcome.rs274);
   bool too_deep = false;
   for (const Outcome::Found& found : outcome.found) {
     if (found.severity != Severity::error) continue;
+    if (!trace.error && ends_where_it_stands(found.kind))
+      trace.error_line = line_of(program.text, found.line);
     trace.error = true;
     trace.error_text += found.text + "\n";
     too_deep = too_deep || found.kind == "call_depth";
@@ -233,7 +230,14 @@ std::optional<std::string> difference(const Trace& own, const Trace& reference) 
                      : "only the reference refuses: " + reference.error_text;
   if (own.timed_out != reference.timed_out)
     return std::string("only ") + (own.timed_out ? "own" : "the reference") + " never ends";
-  if (a.size() > b.size()) return "only own has: " + a[common].text;
+  // It cuts long lines off.
+  if (own.error && reference.error_text.find(own.error_line.substr(0, 200)) == std::string::npos)
+    return "refused at another line: " + own.error_text +
+           "\n    reference's: " + reference.error_text;
+  const std::string errors = own.error ? "\n    own error: " + own.error_text +
+                                             "\n    reference's: " + reference.error_text
+                                       : "";
+  if (a.size() > b.size()) return "only own has: " + a[common].text + errors;
   if (b.size() > a.size()) {
     // The reference prints a refused block's calls up to its error; a block of ours gives nothing.
     // Those calls belong to one block.
@@ -241,7 +245,7 @@ std::optional<std::string> difference(const Trace& own, const Trace& reference) 
     for (std::size_t i = common; i < b.size(); ++i)
       if (b[i].n != b[common].n || i - common > 60)
         return "stopped at an earlier line than the reference, which has: " + b[common].text +
-               "\n    own error: " + own.error_text + "\n    reference's: " + reference.error_text;
+               errors;
   }
   return std::nullopt;
 }

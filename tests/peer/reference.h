@@ -2,11 +2,13 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "interp_programs/program_file.h"
+#include "peer/server.h"
 
 namespace aircut::test {
 
@@ -21,6 +23,8 @@ struct Trace {
   bool error = false;
   bool timed_out = false;
   std::string error_text;
+  std::string error_line;  ///< own: the text of the line that is refused, when it is the program's
+  std::map<std::string, std::uint64_t> codes;  ///< own: how often each code acted
 };
 
 /// Whether rs274 can be started.
@@ -30,10 +34,13 @@ class Reference {
  public:
   /// `folder` is scratch space; called files are looked for in `sub_folder`.
   Reference(std::string folder, std::string sub_folder);
-  Trace run(const ProgramFile& program) const;
+  Trace run(const ProgramFile& program);
 
  private:
   std::string folder_;
+  std::string tools_;
+  bool block_delete_ = false;
+  std::optional<Server> server_;  ///< started with these tools and this switch
 };
 
 /// The trace of this project's interpreter, stopped at the first error as the reference is.

@@ -90,7 +90,7 @@ bool radii_agree(BlockRun& run, const CodeRule& rule, Point start, Point end, Po
   }
   const double off = std::fabs(r1 - r2);
   const double relative = off / std::max(r1, r2);
-  if (off <= 100 * tolerance && (off <= tolerance || relative <= 0.001)) return true;
+  if (off <= 100 * tolerance && (off <= tolerance || relative <= 0.001 + 1e-12)) return true;
   run.error("arc_error", rule,
             "start and end of the arc have different distances from its centre: " + mm(r1) +
                 " and " + mm(r2) + "; they may differ by " + mm(std::max(tolerance, 0.001 * r1)));

@@ -148,6 +148,11 @@ bool spindle_turns(BlockRun& run, const CodeRule& rule, int spindle);
 void emit_feed(BlockRun& run);
 /// True when a feed is set for the move; else the error is recorded.
 bool feed_is_set(BlockRun& run, const CodeRule& rule);
+/// Tell the path mode in force, and Q of G64.
+void emit_path_mode(BlockRun& run);
+void emit_naive_tolerance(BlockRun& run);
+/// D of G96 when it is not given, rev/min.
+constexpr double no_css_limit = 1e30;
 /// Makes `next`'s settings of work system `system` the ones in force, from the parameters.
 void load_work_system(BlockRun& run, int system);
 /// Turns radius compensation on; a radius below 0 changes the side.
@@ -170,6 +175,8 @@ bool frame_allows(BlockRun& run, const CodeRule& rule, AxisSet axes);
 /// The number of a word whose digits without a point count thousandths, whatever the unit: angles,
 /// factors, seconds.
 double thousandths(const BlockRun& run, const Word& word);
+/// G40, or G41 or G42 with the tool in the spindle.
+void restore_radius_comp(BlockRun& run, CompSide side);
 /// Emits the commands that bring a listener from `from` to `to` (M72 and returns of M73).
 void restore_state(BlockRun& run, const ModalState& saved);
 

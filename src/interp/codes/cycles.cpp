@@ -1,5 +1,7 @@
 // Canned cycles G73 G74 G81-G86 G89. Coordinates here: a and b in the plane, c along its normal,
-// all program coordinates in mm.
+// program coordinates as numbers
+// of the unit in force: what a cycle remembers keeps its numbers over G20 and G21, and pecks are
+// counted down from R as the control does it, rounding included.
 //
 //   initial ──●───────────── ○     rapid to the hole at the present level
 //             ┊              ┊
@@ -18,12 +20,12 @@
 namespace aircut::interp {
 namespace {
 
-constexpr double rounding = 1e-9;   // mm, of a level that was turned into machine coordinates
+constexpr double rounding = 1e-9;   // of a level that was turned into machine coordinates
 constexpr int max_moves = 100'000;  // of one line, so that it can't fill the memory
 
 class Cycle : private HoleMotion {
  public:
-  Cycle(const CodeRule& rule, BlockRun& run) : HoleMotion(rule, run) {}
+  Cycle(const CodeRule& rule, BlockRun& run) : HoleMotion(rule, run, run.state.unit_mm()) {}
 
   void execute();
 
@@ -31,6 +33,7 @@ class Cycle : private HoleMotion {
   bool allowed();
   bool read_words();
   void warn_of_changed_modes(bool same);
+  std::optional<double> coordinate(Axis axis) const;
   bool need(char letter, bool same, bool& sticky, double& value, const char* what);
   bool spindle_fits();
   bool count_moves(int repeats);
@@ -50,6 +53,11 @@ bool Cycle::allowed() {
                "canned cycles can't be used while radius compensation is on; give G40 before");
   else if (state_.feed_mode == canon::FeedMode::inverse_time)
     run_.error("cycle_error", rule_, "canned cycles can't be used with G93; give G94 or G95");
+  else if ((rule_.code == 740 || rule_.code == 840) && state_.plane != canon::Plane::xy)
+    run_.error("cycle_error", rule_,
+               name_of(rule_) +
+                   " works in the XY plane only: in others the control moves the "
+                   "wrong axes; give G17 before, or use G33.1");
   else if (run_.machine_coordinates)
     run_.error("g53_error", rule_, "canned cycles can't be used with G53");
   else if (state_.feed <= 0)
@@ -77,6 +85,11 @@ bool Cycle::need(char letter, bool same, bool& sticky, double& value, const char
     return false;
   }
   return true;
+}
+
+std::optional<double> Cycle::coordinate(Axis axis) const {
+  const auto number = run_.number(letter(axis));
+  return number && axis == Axis::x && state_.lathe_diameter ? *number / 2 : number;
 }
 
 // What the cycle keeps from the lines before was said in another plane or unit.
@@ -119,9 +132,8 @@ bool Cycle::read_words() {
                name_of(rule_) + " needs " + std::string(1, normal) + ": the bottom of the hole");
     return false;
   }
-  if (run_.has('R')) cycle.r = run_.length('R');
-  if (run_.has(normal)) cycle.z = *run_.axis(axes_.normal);
-  const double unit = state_.unit_mm();
+  cycle.r = run_.number_or('R', cycle.r);
+  cycle.z = coordinate(axes_.normal).value_or(cycle.z);
   switch (rule_.code) {
     case 820:
     case 860:
@@ -139,15 +151,13 @@ bool Cycle::read_words() {
         run_.error("word_value", 'Q', "Q, the depth of a peck, must be above 0");
         return false;
       }
-      cycle.q /= unit;
       if (!need('Q', same, cycle.has_q, cycle.q, "the depth of a peck")) return false;
-      cycle.q *= unit;
       if (run_.has('D') && *run_.number('D') < 0) {
         run_.error("word_value", 'D', "D, the way back of a peck, can't be negative");
         return false;
       }
       if (run_.has('D')) {
-        cycle.d = run_.length('D');
+        cycle.d = *run_.number('D');
         cycle.has_d = true;
       }
       break;
@@ -208,8 +218,8 @@ void Cycle::execute() {
   z_ = state_.incremental ? r_ + cycle.z : cycle.z;
   if (r_ < z_)
     return run_.error("cycle_error", run_.has('R') ? run_.place('R') : run_.place(rule_),
-                      "the bottom of the hole (" + fixed(z_, 4) + " mm) is above R (" +
-                          fixed(r_, 4) + " mm); R must be above it");
+                      "the bottom of the hole (" + fixed(z_ * unit_, 4) + " mm) is above R (" +
+                          fixed(r_ * unit_, 4) + " mm); R must be above it");
   if (!count_moves(repeats)) return;
   clear_ = state_.retract_to_r ? r_ : std::max(r_, cycle.initial);
   if (std::fabs(c_ - r_) < rounding) c_ = r_;
@@ -218,16 +228,21 @@ void Cycle::execute() {
   if (!exact) run_.emit(canon::SetPathMode{canon::PathMode::exact_path, 0});
   for (int i = 1; i <= repeats && run_.ok(); ++i) repeat(i, repeats);
   if (exact) return;
-  run_.emit(canon::SetPathMode{state_.path_mode, state_.path_tolerance});
-  run_.emit(canon::SetNaiveCam{state_.naive_tolerance});
+  emit_path_mode(run_);
+  emit_naive_tolerance(run_);
 }
 
 void Cycle::repeat(int number, int repeats) {
   name_hole(number, repeats);
   double a = a_, b = b_;
-  if (const auto value = run_.axis(axes_.first)) a = state_.incremental ? a_ + *value : *value;
-  if (const auto value = run_.axis(axes_.second)) b = state_.incremental ? b_ + *value : *value;
-  if ((run_.has('@') || run_.has('^')) && !apply_polar(run_, a, b)) return;
+  if (const auto value = coordinate(axes_.first)) a = state_.incremental ? a_ + *value : *value;
+  if (const auto value = coordinate(axes_.second)) b = state_.incremental ? b_ + *value : *value;
+  if (run_.has('@') || run_.has('^')) {
+    double x = a * unit_, y = b * unit_;
+    if (!apply_polar(run_, x, y)) return;
+    a = x / unit_;
+    b = y / unit_;
+  }
   // Below the level of retraction the way to the hole rises to it on the way.
   move(true, a, b, std::max(c_, clear_), "to the hole");
   if (c_ > r_) rapid_to(r_, "down to R");
@@ -267,12 +282,10 @@ void Cycle::body() {
 void Cycle::peck() {
   const Options& options = run_.session.options;
   const bool full = rule_.code == 830;
-  double clearance = full ? options.g83_clearance : options.g73_clearance;
-  if (clearance <= 0) clearance = 0.254;
+  const double option = (full ? options.g83_clearance : options.g73_clearance) / unit_;
+  double clearance = option > 0 ? option : state_.unit == canon::Unit::inch ? 0.01 : 0.254;
   if (state_.cycle.has_d) clearance = state_.cycle.d;
-  const double q = state_.cycle.q;
-  int number = 1;
-  for (double depth = r_ - q; depth > z_; depth = r_ - ++number * q)
+  for (double depth = r_ - state_.cycle.q; depth > z_; depth -= state_.cycle.q)
     HoleMotion::peck(depth, full, r_, clearance);
   feed(z_, "peck");
   rapid_to(clear_, "retract");

@@ -2,12 +2,12 @@
 
 namespace aircut::interp {
 
-HoleMotion::HoleMotion(const CodeRule& rule, BlockRun& run)
-    : rule_(rule), run_(run), state_(run.state), axes_(axes_of(run.state.plane)) {
+HoleMotion::HoleMotion(const CodeRule& rule, BlockRun& run, double unit)
+    : rule_(rule), run_(run), state_(run.state), axes_(axes_of(run.state.plane)), unit_(unit) {
   const AxisValues start = to_program(state_, state_.tip);
-  a_ = start[axes_.first];
-  b_ = start[axes_.second];
-  c_ = start[axes_.normal];
+  a_ = start[axes_.first] / unit_;
+  b_ = start[axes_.second] / unit_;
+  c_ = start[axes_.normal] / unit_;
 }
 
 void HoleMotion::name_hole(int number, int count) {
@@ -31,9 +31,9 @@ void HoleMotion::dwell(double seconds) { run_.emit(canon::Dwell{seconds}, told("
 
 AxisValues HoleMotion::tip_at(double a, double b, double c) const {
   AxisValues program = to_program(state_, state_.tip);
-  program[axes_.first] = a;
-  program[axes_.second] = b;
-  program[axes_.normal] = c;
+  program[axes_.first] = a * unit_;
+  program[axes_.second] = b * unit_;
+  program[axes_.normal] = c * unit_;
   AxisValues tip = to_tip(state_, program);
   AxisSet named;
   for (const Axis axis : {axes_.first, axes_.second, axes_.normal}) named.add(axis);

@@ -1,5 +1,5 @@
 // The moves of canned cycles at one hole. Coordinates: a and b in the plane, c along its normal,
-// all program coordinates in mm.
+// program coordinates in mm, or as numbers of another unit.
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@ namespace aircut::interp {
 
 class HoleMotion {
  public:
-  HoleMotion(const CodeRule& rule, BlockRun& run);
+  /// `unit`: mm per 1 of the coordinates.
+  HoleMotion(const CodeRule& rule, BlockRun& run, double unit = 1);
 
  protected:
   AxisValues tip_at(double a, double b, double c) const;
@@ -29,6 +30,7 @@ class HoleMotion {
   BlockRun& run_;
   ModalState& state_;
   PlaneAxes axes_;
+  double unit_;                   ///< mm
   double a_ = 0, b_ = 0, c_ = 0;  ///< where the tip is
   int spindle_ = 0;
 

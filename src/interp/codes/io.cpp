@@ -87,7 +87,8 @@ void analog_output(const CodeRule& rule, BlockRun& run) {
     return run.error("word_missing", rule, name_of(rule) + " needs E: the number of the output");
   const auto index = run.integer('E', 0, last_io);
   if (!index) return;
-  run.emit(canon::AnalogOutput{*index, run.number_or('Q', 0), rule.code == 67});
+  // Without Q the control sets -1.
+  run.emit(canon::AnalogOutput{*index, run.number_or('Q', -1), rule.code == 67});
 }
 
 // Without a machine nothing ever changes an input: it reads 0, and waiting for anything but a low

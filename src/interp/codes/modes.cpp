@@ -21,32 +21,18 @@ bool refuse_with_comp(BlockRun& run, const CodeRule& rule) {
 }  // namespace
 
 void select_plane(const CodeRule& rule, BlockRun& run) {
-  if (refuse_with_comp(run, rule)) return;
-  const canon::Plane before = run.state.plane;
-  switch (rule.code) {
-    case 170:
-      run.state.plane = canon::Plane::xy;
-      break;
-    case 180:
-      run.state.plane = canon::Plane::zx;
-      break;
-    case 190:
-      run.state.plane = canon::Plane::yz;
-      break;
-    case 171:
-      run.state.plane = canon::Plane::uv;
-      break;
-    case 181:
-      run.state.plane = canon::Plane::wu;
-      break;
-    default:
-      run.state.plane = canon::Plane::vw;
-      break;
-  }
-  if (run.state.frame.turned && run.state.plane != before)
+  const canon::Plane plane = rule.code == 170   ? canon::Plane::xy
+                             : rule.code == 180 ? canon::Plane::zx
+                             : rule.code == 190 ? canon::Plane::yz
+                             : rule.code == 171 ? canon::Plane::uv
+                             : rule.code == 181 ? canon::Plane::wu
+                                                : canon::Plane::vw;
+  if (plane != run.state.plane && refuse_with_comp(run, rule)) return;
+  if (run.state.frame.turned && plane != run.state.plane)
     return run.error("frame_error", rule,
                      "the plane can't be changed while G68 turns it; give G69 before");
-  run.emit(canon::SelectPlane{run.state.plane});
+  run.state.plane = plane;
+  run.emit_now(canon::SelectPlane{plane});  // with radius compensation it is the plane in force
 }
 
 void select_unit(const CodeRule& rule, BlockRun& run) {
@@ -58,7 +44,7 @@ void select_unit(const CodeRule& rule, BlockRun& run) {
                     " on the same line, in the unit that was in force; put " + name_of(rule) +
                     " on a line before");
   run.state.unit = unit;
-  run.emit(canon::UseUnit{unit});
+  run.emit_now(canon::UseUnit{unit});
 }
 
 void lathe_mode(const CodeRule& rule, BlockRun& run) { run.state.lathe_diameter = rule.code == 70; }
@@ -76,37 +62,44 @@ void feed_mode(const CodeRule& rule, BlockRun& run) {
   run.state.feed_mode = rule.code == 930   ? canon::FeedMode::inverse_time
                         : rule.code == 940 ? canon::FeedMode::per_minute
                                            : canon::FeedMode::per_revolution;
-  run.state.feed = 0;
+  if (rule.code != 930) run.state.feed = 0;
   run.emit(canon::SetFeedMode{run.state.feed_mode});
   if (rule.code != 930) run.emit(canon::SetFeedRate{});
 }
 
-void feed_word(BlockRun& run) {
-  ModalState& state = run.state;
-  const double value = *run.number('F');
-  if (value < 0) return run.error("word_value", 'F', "F, the feed, can't be negative");
-  run.feed_given = true;
-  state.feed = value;
-  emit_feed(run);
-}
-
 void emit_feed(BlockRun& run) {
   const ModalState& state = run.state;
-  const double value = state.feed;
   canon::SetFeedRate rate;
   switch (state.feed_mode) {
     case canon::FeedMode::per_minute:
-      rate.value = value * state.unit_mm() / 60;
-      rate.rotary = value * radian_per_degree / 60;
+      rate.value = state.feed * state.unit_mm() / 60;
+      rate.rotary = state.feed * radian_per_degree / 60;
       break;
     case canon::FeedMode::inverse_time:
-      rate.value = value / 60;
+      rate.value = state.feed / 60;
       break;
     case canon::FeedMode::per_revolution:
-      rate.value = value * state.unit_mm();
+      rate.value = state.feed * state.unit_mm();
       break;
   }
   run.emit(rate);
+}
+
+void feed_word(BlockRun& run) {
+  const double value = *run.number('F');
+  if (value < 0) return run.error("word_value", 'F', "F, the feed, can't be negative");
+  run.feed_given = true;
+  run.state.feed = value;
+  emit_feed(run);
+}
+
+void emit_path_mode(BlockRun& run) {
+  const ModalState& state = run.state;
+  run.emit(canon::SetPathMode{state.path_mode, state.path_tolerance * state.unit_mm()});
+}
+
+void emit_naive_tolerance(BlockRun& run) {
+  run.emit(canon::SetNaiveCam{run.state.naive_tolerance * run.state.unit_mm()});
 }
 
 void path_mode(const CodeRule& rule, BlockRun& run) {
@@ -120,12 +113,11 @@ void path_mode(const CodeRule& rule, BlockRun& run) {
   } else {
     state.path_mode = canon::PathMode::continuous;
     // Nothing or less than nothing means no limit.
-    state.path_tolerance = std::max(0.0, run.length('P'));
-    state.naive_tolerance = std::max(0.0, run.length('Q', state.path_tolerance));
+    state.path_tolerance = std::max(0.0, run.number_or('P', 0));
+    state.naive_tolerance = std::max(0.0, run.number_or('Q', state.path_tolerance));
   }
-  run.emit(canon::SetPathMode{state.path_mode, state.path_tolerance});
-  if (state.path_mode == canon::PathMode::continuous)
-    run.emit(canon::SetNaiveCam{state.naive_tolerance});
+  emit_path_mode(run);
+  if (state.path_mode == canon::PathMode::continuous) emit_naive_tolerance(run);
 }
 
 void retract_mode(const CodeRule& rule, BlockRun& run) {
@@ -144,10 +136,63 @@ void dwell(const CodeRule& rule, BlockRun& run) {
 
 void radius_comp_off(const CodeRule&, BlockRun& run) {
   CompState& comp = run.state.comp;
-  run.session.compensator.flush(run);
+  run.session.compensator.finish(run);
+  if (!run.ok()) return;
   if (comp.side != CompSide::off) comp.leaving = comp.entered;
   comp.side = CompSide::off;
 }
+
+namespace {
+
+/// The tool of a D word, or the one in the spindle; null with an error when there is none.
+struct Cutter {
+  double diameter = 0;  // mm
+  int orientation = 0;
+};
+
+std::optional<Cutter> cutter_of_tool(const CodeRule& rule, BlockRun& run) {
+  int number = 0;
+  if (run.has('D')) {
+    const auto d = run.integer('D', 0, 99999);
+    if (!d) return std::nullopt;
+    number = *d;
+  }
+  // L belongs to G41.1 and G42.1; it is read here too, and that is all.
+  if (run.has('L') && !run.integer('L', -99999, 99999)) return std::nullopt;
+  if (number == 0) number = run.state.tool;
+  const tool::Tool* tool = run.session.tools.find(number);
+  if (tool && run.has('D') && number != run.state.tool && run.state.tool != 0)
+    run.warning("wrong_offset", run.place('D'),
+                "D takes the diameter of tool " + std::to_string(number) + ", but tool " +
+                    std::to_string(run.state.tool) +
+                    " is in the spindle: the contour comes out too large or too small; leave D "
+                    "out for the tool in the spindle");
+  if (tool) return Cutter{tool->diameter, tool->orientation};
+  if (number == 0) return Cutter{};
+  run.error("tool_unknown", run.has('D') ? run.place('D') : run.place(rule),
+            "tool " + std::to_string(number) + " is not in the tool table");
+  return std::nullopt;
+}
+
+std::optional<Cutter> cutter_of_words(const CodeRule& rule, BlockRun& run) {
+  if (!run.has('D')) {
+    run.error("word_missing", rule, name_of(rule) + " needs D: the cutter's diameter");
+    return std::nullopt;
+  }
+  Cutter cutter{run.length('D'), 0};
+  if (!run.has('L')) return cutter;
+  if (run.state.plane != canon::Plane::zx) {
+    run.error("comp_illegal", 'L',
+              "L, the orientation of a lathe tool, needs the ZX plane; give G18 before");
+    return std::nullopt;
+  }
+  const auto orientation = run.integer('L', 0, 9);
+  if (!orientation) return std::nullopt;
+  cutter.orientation = *orientation;
+  return cutter;
+}
+
+}  // namespace
 
 void radius_comp_on(const CodeRule& rule, BlockRun& run) {
   ModalState& state = run.state;
@@ -155,44 +200,12 @@ void radius_comp_on(const CodeRule& rule, BlockRun& run) {
   if (state.plane != canon::Plane::xy && state.plane != canon::Plane::zx)
     return run.error("comp_illegal", rule,
                      "radius compensation needs the XY or ZX plane; give G17 or G18 before");
-  CompState comp;
-  comp.side = rule.code < 420 ? CompSide::left : CompSide::right;
-  comp.from_diameter_word = rule.code % 10 == 1;
-  double diameter = 0;
-  if (comp.from_diameter_word) {
-    if (!run.has('D'))
-      return run.error("word_missing", rule, name_of(rule) + " needs D: the cutter's diameter");
-    diameter = run.length('D');
-    if (run.has('L')) {
-      const auto orientation = run.integer('L', 0, 9);
-      if (!orientation) return;
-      comp.orientation = *orientation;
-    }
-  } else {
-    int number = 0;
-    if (run.has('D')) {
-      const auto d = run.integer('D', 0, 99999);
-      if (!d) return;
-      number = *d;
-    }
-    if (number == 0) number = state.tool;
-    const tool::Tool* tool = run.session.tools.find(number);
-    if (!tool && number != 0)
-      return run.error("tool_unknown", run.has('D') ? run.place('D') : run.place(rule),
-                       "tool " + std::to_string(number) + " is not in the tool table");
-    if (run.has('D') && number != state.tool && state.tool != 0)
-      run.warning("wrong_offset", run.place('D'),
-                  "D takes the diameter of tool " + std::to_string(number) + ", but tool " +
-                      std::to_string(state.tool) +
-                      " is in the spindle: the contour comes out too large or too small; leave D "
-                      "out for the tool in the spindle");
-    if (tool) {
-      diameter = tool->diameter;
-      comp.orientation = tool->orientation;
-    }
-  }
-  start_compensation(rule, run, comp.side, diameter / 2, comp.orientation);
-  state.comp.from_diameter_word = comp.from_diameter_word;
+  const bool by_words = rule.code % 10 == 1;
+  const auto cutter = by_words ? cutter_of_words(rule, run) : cutter_of_tool(rule, run);
+  if (!cutter) return;
+  start_compensation(rule, run, rule.code < 420 ? CompSide::left : CompSide::right,
+                     cutter->diameter / 2, cutter->orientation);
+  state.comp.from_diameter_word = by_words;
 }
 
 void start_compensation(const CodeRule& rule, BlockRun& run, CompSide side, double radius,
@@ -210,6 +223,14 @@ void start_compensation(const CodeRule& rule, BlockRun& run, CompSide side, doub
   comp.orientation = orientation;
   run.state.comp = comp;
   run.session.compensator.start();
+}
+
+// The control gives G40, or G41 and G42 without D.
+void restore_radius_comp(BlockRun& run, CompSide side) {
+  if (run.state.comp.side == side) return;
+  const CodeTable& table = run.session.table;
+  if (side == CompSide::off) return radius_comp_off(*table.find_g(400), run);
+  radius_comp_on(*table.find_g(side == CompSide::left ? 410 : 420), run);
 }
 
 }  // namespace aircut::interp

@@ -11,8 +11,9 @@ namespace aircut::interp {
 bool apply_polar(BlockRun& run, double& x, double& y) {
   const ModalState& state = run.state;
   const char first = run.has('@') ? '@' : '^';
-  if (state.plane != canon::Plane::xy) {
-    run.error("polar_error", first, "polar words (@ ^) need the XY plane; give G17 before");
+  if (run.plane_before != canon::Plane::xy) {
+    run.error("polar_error", first,
+              "polar words (@ ^) need the XY plane; give G17 on a line before");
     return false;
   }
   if (run.has('X') || run.has('Y')) {
@@ -152,7 +153,26 @@ void linear_feed(const CodeRule& rule, BlockRun& run) {
 
 void cancel_motion(const CodeRule&, BlockRun&) {}
 
+namespace {
+
+bool refuse_with_comp(BlockRun& run, const CodeRule& rule, bool even_without_radius = false) {
+  const CompState& comp = run.state.comp;
+  if (comp.side == CompSide::off || (comp.radius == 0 && !even_without_radius)) return false;
+  run.error("comp_illegal", rule,
+            name_of(rule) + " can't be used while radius compensation is on; give G40 before");
+  return true;
+}
+
+bool has_axes(BlockRun& run, const CodeRule& rule) {
+  if (run.has_axis_words() || run.has('@') || run.has('^')) return true;
+  run.error("axis_word_missing", rule, name_of(rule) + " needs at least one axis word");
+  return false;
+}
+
+}  // namespace
+
 void thread(const CodeRule& rule, BlockRun& run) {
+  if (refuse_with_comp(run, rule) || !has_axes(run, rule)) return;
   if (!run.has('K'))
     return run.error("word_missing", rule, "G33 needs K: the distance per revolution");
   const auto spindle = spindle_of(run, 0);
@@ -167,10 +187,12 @@ void thread(const CodeRule& rule, BlockRun& run) {
   move.spindle = *spindle;
   run.emit(std::move(move));
   run.state.tip = *end;
+  if (run.state.comp.entered) run.state.comp.programmed = *end;
 }
 
-// The position after rigid tapping is where it began.
+// The position after rigid tapping is where it began, but for rotary axes.
 void rigid_tap(const CodeRule& rule, BlockRun& run) {
+  if (refuse_with_comp(run, rule) || !has_axes(run, rule)) return;
   if (!run.has('K'))
     return run.error("word_missing", rule, "G33.1 needs K: the distance per revolution");
   const auto spindle = spindle_of(run, 0);
@@ -190,11 +212,12 @@ void rigid_tap(const CodeRule& rule, BlockRun& run) {
   move.return_factor = factor;
   move.spindle = *spindle;
   run.emit(std::move(move));
+  for (const Axis axis : all_axes)  // only the linear axes come back, as the control sees it
+    if (is_rotary(axis)) run.state.tip[axis] = (*end)[axis];
 }
 
 void probe(const CodeRule& rule, BlockRun& run) {
-  if (!run.has_axis_words())
-    return run.error("axis_word_missing", rule, name_of(rule) + " needs at least one axis word");
+  if (refuse_with_comp(run, rule, true) || !has_axes(run, rule)) return;
   if (run.state.feed_mode == canon::FeedMode::per_revolution ||
       run.state.feed_mode == canon::FeedMode::inverse_time)
     return run.error("probe_error", rule, "probing needs feed per minute; give G94 and F before");

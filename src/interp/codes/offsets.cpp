@@ -26,9 +26,29 @@ AxisSet axes_given(const BlockRun& run) {
   return axes;
 }
 
+// When the rotation changes, the control turns the current point about the origin of the work
+// system and forgets that G92 shifts that: it takes the point for another one from then on.
+void lose_point_of_g92(BlockRun& run, const ModalState& before) {
+  ModalState& state = run.state;
+  const bool shifted = state.g92[Axis::x] != 0 || state.g92[Axis::y] != 0;
+  if (state.rotation == before.rotation || !shifted) return;
+  const AxisValues reads = to_program(before, before.tip);
+  ModalState old = before, now = state;
+  old.g92 = now.g92 = {};
+  const AxisValues believed = to_tip(state, to_program(now, to_tip(old, reads)));
+  state.tip[Axis::x] = believed[Axis::x];
+  state.tip[Axis::y] = believed[Axis::y];
+  run.warning("control_fault", run.place('R'),
+              "the control misplaces the current point when the rotation changes while G92 or G52 "
+              "is in force; give G92.1 before, or both X and Y on the next move");
+}
+
 void reload_if_active(BlockRun& run, int system) {
-  if (system != run.state.system) return;
+  ModalState& state = run.state;
+  if (system != state.system) return;
+  const ModalState before = state;
   load_work_system(run, system);
+  lose_point_of_g92(run, before);
   run.emit_work_offset();
   run.emit_rotation();
 }
@@ -107,10 +127,12 @@ void set_tool_data(const CodeRule& rule, BlockRun& run, int kind) {
     return run.error("tool_unknown", 'P',
                      "tool " + std::to_string(*number) + " is not in the tool table");
   ModalState frame = run.state;
-  if (kind == 11) {
-    frame.g92 = {};
-    frame.work_offset = run.stored_axes(system_base(9));
-    frame.rotation = run.parameter(system_base(9) + 9) * radian_per_degree;
+  if (kind != 1) {  // from the parameters, which a program may have changed since
+    const int base = system_base(kind == 11 ? 9 : run.state.system);
+    const bool shifted = kind == 10 && run.parameter(number::g92_applied) != 0;
+    frame.g92 = shifted ? run.stored_axes(number::g92_offset) : AxisValues{};
+    frame.work_offset = run.stored_axes(base);
+    frame.rotation = run.parameter(base + 9) * radian_per_degree;
   }
   // The controlled point must read the words with the new offset: tip = point − offset.
   const AxisValues point = run.state.tip + run.state.length_offset;
@@ -145,8 +167,11 @@ void set_data(const CodeRule& rule, BlockRun& run) {
   const auto l = run.integer('L', 0, 20, "g10_error");
   if (!l) return;
   switch (*l) {
-    case 0:
-      return;  // reload: the table is in memory already
+    case 0:  // reload: the table is in memory already
+      if (run.state.tool != 0)
+        run.error("g10_error", rule,
+                  "G10 L0 reloads the tool table, which needs an empty spindle; give T0 M6 before");
+      return;
     case 1:
     case 10:
     case 11:
@@ -164,11 +189,10 @@ void set_data(const CodeRule& rule, BlockRun& run) {
 void machine_coordinates(const CodeRule& rule, BlockRun& run) {
   if (run.state.incremental)
     return run.error("g53_error", rule, "G53 needs absolute distances; give G90 before");
-  if (run.state.comp.side != CompSide::off)
+  if (run.state.comp.side != CompSide::off && run.state.comp.radius > 0)
     return run.error("g53_error", rule,
                      "G53 can't be used while radius compensation is on; give G40 before");
-  const int motion = run.motion_rule ? run.motion_rule->code : run.state.motion;
-  if (motion != 0 && motion != 10)
+  if (!run.motion_rule || (run.motion_rule->code != 0 && run.motion_rule->code != 10))
     return run.error("g53_error", rule, "G53 works with G0 and G1 only; give one of them");
   run.machine_coordinates = true;
 }
@@ -180,12 +204,25 @@ void go_home(const CodeRule& rule, BlockRun& run) {
   if (!middle) return;
   const std::string what = name_of(rule);
   run.emit(canon::Rapid{*middle}, what + " intermediate point");
-  const AxisValues home =
-      run.stored_axes(rule.code == 280 ? number::g28_position : number::g30_position) -
-      run.state.length_offset;
-  AxisValues end = *middle;
+  AxisValues home = run.stored_axes(rule.code == 280 ? number::g28_position : number::g30_position);
+  for (const Axis axis : all_axes)  // the control leaves the length offset of rotary axes out
+    if (!is_rotary(axis)) home[axis] -= run.state.length_offset[axis];
+  // Named axes go to the stored point's program coordinates; with a rotation X and Y mix.
+  AxisValues mixed = to_program(run.state, *middle);
+  const AxisValues there = to_program(run.state, home);
   for (const Axis axis : all_axes)
-    if (axes.empty() || axes.has(axis)) end[axis] = home[axis];
+    if (axes.has(axis)) mixed[axis] = there[axis];
+  const AxisValues turned = to_tip(run.state, mixed);
+  const bool in_plane = run.state.rotation != 0 && (axes.has(Axis::x) || axes.has(Axis::y));
+  AxisValues end = *middle;
+  for (const Axis axis : all_axes) {
+    if (axes.empty())
+      end[axis] = home[axis];
+    else if (in_plane && axis <= Axis::y)
+      end[axis] = turned[axis];
+    else if (axes.has(axis))
+      end[axis] = home[axis];
+  }
   run.emit(canon::Rapid{end}, what + " stored position");
   run.state.tip = end;
 }
@@ -208,10 +245,11 @@ void length_offset(const CodeRule& rule, BlockRun& run) {
   AxisValues offset = run.state.length_offset;
   const bool by_axes = rule.code == 431 || (rule.code == 432 && !run.has('H'));
   if (by_axes) {
-    if (!run.has_axis_words())
-      return run.error(
-          "axis_word_missing", rule,
-          name_of(rule) + (rule.code == 431 ? " needs axis words" : " needs H or axis words"));
+    if (!run.has_axis_words() && rule.code == 431)
+      run.warning("word_ignored", run.place(rule),
+                  "G43.1 without axis words changes nothing; give the axes of the offset");
+    else if (!run.has_axis_words())
+      return run.error("axis_word_missing", rule, "G43.2 needs H or axis words");
     for (const Axis axis : all_axes)
       if (const auto value = run.axis(axis))
         offset[axis] = rule.code == 431 ? *value : offset[axis] + *value;

@@ -1,6 +1,4 @@
 // Stops, the end of the program, Fanuc-style subs, and the stack of modal settings (M70-M73).
-#include <limits>
-
 #include "interp/codes/codes.h"
 
 namespace aircut::interp {
@@ -99,65 +97,63 @@ void modal_stack(const CodeRule& rule, BlockRun& run) {
   }
 }
 
-// Not restored: position, motion mode, tool, G92, the numbers of the work systems.
-void restore_state(BlockRun& run, const ModalState& saved) {
+namespace {
+
+// A feed mode forgets the feed; F is told again only when its number had changed before.
+void restore_feed(BlockRun& run, const ModalState& saved) {
   ModalState& state = run.state;
-  if (state.unit != saved.unit) {
-    state.unit = saved.unit;
-    run.emit(canon::UseUnit{state.unit});
-  }
+  const bool feed_differs = state.feed != saved.feed;
   if (state.feed_mode != saved.feed_mode) {
     state.feed_mode = saved.feed_mode;
     run.emit(canon::SetFeedMode{state.feed_mode});
-    state.feed = std::numeric_limits<double>::quiet_NaN();  // to be said again
-  }
-  if (state.feed != saved.feed) {
-    state.feed = saved.feed;
-    canon::SetFeedRate rate;
-    switch (state.feed_mode) {
-      case canon::FeedMode::per_minute:
-        rate.value = state.feed * state.unit_mm() / 60;
-        rate.rotary = state.feed * radian_per_degree / 60;
-        break;
-      case canon::FeedMode::inverse_time:
-        rate.value = state.feed / 60;
-        break;
-      case canon::FeedMode::per_revolution:
-        rate.value = state.feed * state.unit_mm();
-        break;
+    if (state.feed_mode != canon::FeedMode::inverse_time) {
+      state.feed = 0;
+      run.emit(canon::SetFeedRate{});
     }
-    run.emit(rate);
   }
+  if (!feed_differs) return;
+  state.feed = saved.feed;
+  emit_feed(run);
+}
+
+// G96 comes back without its D.
+bool restore_spindle_mode(BlockRun& run, const ModalState& saved) {
   for (int i = 0; i < run.session.options.spindles; ++i) {
-    SpindleState& now = state.spindles[static_cast<std::size_t>(i)];
+    SpindleState& now = run.state.spindles[static_cast<std::size_t>(i)];
     const SpindleState& then = saved.spindles[static_cast<std::size_t>(i)];
-    if (now.css != then.css) run.emit(canon::SetSpindleMode{i, then.css ? then.css_limit : 0});
-    if (now.speed != then.speed || now.css != then.css) {
-      const bool feet = then.css && state.unit == canon::Unit::inch;
-      run.emit(canon::SetSpindleSpeed{i, feet ? then.speed * 0.3048 : then.speed});
+    if (now.css == then.css) continue;
+    if (then.css && now.speed == then.speed) {
+      run.error("modal_stack", run.whole(),
+                "the control can't go back to G96 here: it needs an S word for that and takes one "
+                "only when S has changed; give G97 with another S after saving");
+      return false;
     }
-    if (now.turn != then.turn) {
-      canon::TurnSpindle command;
-      command.spindle = i;
-      command.turn = then.turn;
-      run.emit(command);
-    }
-    if (now.override_on != then.override_on)
-      run.emit(canon::Override{canon::Override::Kind::speed, then.override_on, i});
-    now = then;
+    now.css = then.css;
+    now.css_limit = then.css ? no_css_limit : 0;
+    run.emit(canon::SetSpindleMode{i, now.css_limit});
   }
-  if (state.plane != saved.plane) {
-    state.plane = saved.plane;
-    run.emit(canon::SelectPlane{state.plane});
+  return true;
+}
+
+void restore_speed(BlockRun& run, const ModalState& saved) {
+  for (int i = 0; i < run.session.options.spindles; ++i) {
+    SpindleState& now = run.state.spindles[static_cast<std::size_t>(i)];
+    const SpindleState& then = saved.spindles[static_cast<std::size_t>(i)];
+    if (now.speed == then.speed) continue;
+    now.speed = then.speed;
+    const bool feet = now.css && run.state.unit == canon::Unit::inch;
+    run.emit(canon::SetSpindleSpeed{i, feet ? then.speed * 0.3048 : then.speed});
   }
-  state.lathe_diameter = saved.lathe_diameter;
-  if (saved.comp.side == CompSide::off && state.comp.side != CompSide::off) {
-    run.session.compensator.flush(run);
-    state.comp.leaving = state.comp.entered;
-    state.comp.side = CompSide::off;
+}
+
+void restore_offsets(BlockRun& run, const ModalState& saved) {
+  ModalState& state = run.state;
+  const bool had_offset = !(saved.length_offset == AxisValues{});
+  const bool has_offset = !(state.length_offset == AxisValues{});
+  if (had_offset != has_offset) {  // G43 without H, or G49
+    const tool::Tool* tool = had_offset ? run.session.tools.find(state.tool) : nullptr;
+    use_length_offset(run, tool ? tool->offset : AxisValues{}, tool ? state.tool : 0);
   }
-  if (saved.length_offset == AxisValues{} && !(state.length_offset == AxisValues{}))
-    use_length_offset(run, {});
   if (state.system != saved.system) {
     run.set_parameter(number::active_system, saved.system);
     load_work_system(run, saved.system);
@@ -170,28 +166,113 @@ void restore_state(BlockRun& run, const ModalState& saved) {
     state.path_mode = saved.path_mode;
     state.path_tolerance = saved.path_tolerance;
     state.naive_tolerance = saved.naive_tolerance;
-    run.emit(canon::SetPathMode{state.path_mode, state.path_tolerance});
-    if (state.path_mode == canon::PathMode::continuous)
-      run.emit(canon::SetNaiveCam{state.naive_tolerance});
+    emit_path_mode(run);
+    if (state.path_mode == canon::PathMode::continuous) emit_naive_tolerance(run);
   }
+}
+
+// The M codes that lead back. Each tells whether it was needed.
+
+bool restore_turn(BlockRun& run, const ModalState& saved) {
+  bool needed = false;
+  for (int i = 0; i < run.session.options.spindles; ++i) {
+    SpindleState& now = run.state.spindles[static_cast<std::size_t>(i)];
+    const canon::SpindleTurn then = saved.spindles[static_cast<std::size_t>(i)].turn;
+    if (now.turn == then) continue;
+    now.turn = then;
+    canon::TurnSpindle command;
+    command.spindle = i;
+    command.turn = then;
+    run.emit(command);
+    needed = true;
+  }
+  return needed;
+}
+
+// M7 when it was on, M9 only when neither was: what came on beside the other stays on.
+bool restore_mist(BlockRun& run, const ModalState& saved) {
+  ModalState& state = run.state;
+  if (saved.mist && !state.mist) {
+    state.mist = true;
+    run.emit(canon::Coolant{canon::Coolant::Kind::mist, true});
+    return true;
+  }
+  if (saved.mist || saved.flood || (!state.mist && !state.flood)) return false;
+  state.mist = state.flood = false;
+  run.emit(canon::Coolant{canon::Coolant::Kind::mist, false});
+  run.emit(canon::Coolant{canon::Coolant::Kind::flood, false});
+  return true;
+}
+
+bool restore_flood(BlockRun& run, const ModalState& saved) {
+  if (!saved.flood || run.state.flood) return false;
+  run.state.flood = true;
+  run.emit(canon::Coolant{canon::Coolant::Kind::flood, true});
+  return true;
+}
+
+// M48 when the feed override was on, M51 when not.
+bool restore_override(BlockRun& run, const ModalState& saved) {
+  ModalState& state = run.state;
+  if (state.feed_override == saved.feed_override) return false;
+  if (saved.feed_override) {
+    state.feed_override = true;
+    run.emit(canon::Override{canon::Override::Kind::feed, true, 0});
+  }
+  for (int i = 0; i < run.session.options.spindles; ++i) {
+    state.spindles[static_cast<std::size_t>(i)].override_on = true;
+    run.emit(canon::Override{canon::Override::Kind::speed, true, i});
+  }
+  return true;
+}
+
+// M52 and M53 only when they were on.
+bool restore_adaptive_feed(BlockRun& run, const ModalState& saved) {
+  if (!saved.adaptive_feed || run.state.adaptive_feed) return false;
+  run.state.adaptive_feed = true;
+  run.emit(canon::Override{canon::Override::Kind::adaptive_feed, true, 0});
+  return true;
+}
+
+bool restore_feed_hold(BlockRun& run, const ModalState& saved) {
+  if (!saved.feed_hold || run.state.feed_hold) return false;
+  run.state.feed_hold = true;
+  run.emit(canon::Override{canon::Override::Kind::feed_hold, true, 0});
+  return true;
+}
+
+}  // namespace
+
+// The control writes lines of codes that lead back to the saved state and executes them: the unit;
+// F, S, all G codes and the first M code that is needed; every other M code. Not restored:
+// position, motion mode, tool, G92, the numbers of the work systems.
+void restore_state(BlockRun& run, const ModalState& saved) {
+  constexpr bool (*m_codes[])(BlockRun&, const ModalState&) = {
+      restore_turn,     restore_mist,          restore_flood,
+      restore_override, restore_adaptive_feed, restore_feed_hold};
+  ModalState& state = run.state;
+  if (state.unit != saved.unit) {
+    state.unit = saved.unit;
+    run.emit(canon::UseUnit{state.unit});
+  }
+  if (!restore_spindle_mode(run, saved)) return;
+  restore_feed(run, saved);
+  restore_speed(run, saved);
+  std::size_t m = 0;
+  while (m < std::size(m_codes) && !m_codes[m++](run, saved)) {
+  }
+  if (state.plane != saved.plane) {
+    state.plane = saved.plane;
+    run.emit(canon::SelectPlane{state.plane});
+  }
+  state.lathe_diameter = saved.lathe_diameter;
+  restore_radius_comp(run, saved.comp.side);
+  if (!run.ok()) return;
+  restore_offsets(run, saved);
   state.incremental = saved.incremental;
   state.absolute_centres = saved.absolute_centres;
   state.retract_to_r = saved.retract_to_r;
-  if (state.mist != saved.mist) run.emit(canon::Coolant{canon::Coolant::Kind::mist, saved.mist});
-  if (state.flood != saved.flood)
-    run.emit(canon::Coolant{canon::Coolant::Kind::flood, saved.flood});
-  state.mist = saved.mist;
-  state.flood = saved.flood;
-  using Kind = canon::Override::Kind;
-  if (state.feed_override != saved.feed_override)
-    run.emit(canon::Override{Kind::feed, saved.feed_override, 0});
-  if (state.adaptive_feed != saved.adaptive_feed)
-    run.emit(canon::Override{Kind::adaptive_feed, saved.adaptive_feed, 0});
-  if (state.feed_hold != saved.feed_hold)
-    run.emit(canon::Override{Kind::feed_hold, saved.feed_hold, 0});
-  state.feed_override = saved.feed_override;
-  state.adaptive_feed = saved.adaptive_feed;
-  state.feed_hold = saved.feed_hold;
+  while (m < std::size(m_codes)) m_codes[m++](run, saved);
 }
 
 }  // namespace aircut::interp

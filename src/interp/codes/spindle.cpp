@@ -1,4 +1,6 @@
 // Spindle: S, G96 G97, M3 M4 M5 M19, each with $ for one of several spindles.
+#include <cmath>
+
 #include "base/text.h"
 #include "interp/codes/codes.h"
 
@@ -50,8 +52,8 @@ void spindle_mode(const CodeRule& rule, BlockRun& run) {
   double limit = 0;
   if (rule.code == 960) {
     if (!run.has('S')) return run.error("word_missing", rule, "G96 needs S: the surface speed");
-    limit = run.number_or('D', 1e30);
-    if (limit <= 0)
+    limit = std::fabs(run.number_or('D', no_css_limit));
+    if (limit == 0)
       return run.error("word_value", 'D', "D, the highest spindle speed, must be above 0");
   }
   for (int i = range->first; i <= range->last; ++i) {

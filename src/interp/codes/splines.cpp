@@ -25,6 +25,12 @@ bool allowed(BlockRun& run, const CodeRule& rule) {
   return feed_is_set(run, rule);
 }
 
+bool has_end(BlockRun& run, const CodeRule& rule) {
+  if (run.has('X') || run.has('Y') || run.has('@') || run.has('^')) return true;
+  run.error("axis_word_missing", rule, name_of(rule) + " needs X or Y: the end of the curve");
+  return false;
+}
+
 // The tip position of the current program point moved by (x, y) in program axes.
 canon::SplineFeed::Point shifted(const BlockRun& run, const AxisValues& from, double x, double y,
                                  double weight = 1) {
@@ -42,7 +48,7 @@ canon::SplineFeed::Point at(const AxisValues& tip, double weight = 1) {
 }  // namespace
 
 void cubic_spline(const CodeRule& rule, BlockRun& run) {
-  if (!allowed(run, rule)) return;
+  if (!allowed(run, rule) || !has_end(run, rule)) return;
   if (!run.has('P') || !run.has('Q'))
     return run.error("spline_error", rule,
                      "G5 needs P and Q: the second control point, seen from the end");
@@ -68,7 +74,7 @@ void cubic_spline(const CodeRule& rule, BlockRun& run) {
 }
 
 void quadratic_spline(const CodeRule& rule, BlockRun& run) {
-  if (!allowed(run, rule)) return;
+  if (!allowed(run, rule) || !has_end(run, rule)) return;
   if (!run.has('I') || !run.has('J'))
     return run.error("spline_error", rule,
                      "G5.1 needs I and J: the control point, seen from the start");
@@ -84,7 +90,8 @@ void quadratic_spline(const CodeRule& rule, BlockRun& run) {
   run.state.tip = *end;
 }
 
-// Collects control points; the current point is the first one.
+// Collects control points. The current point is the first one and stays it until G5.3: with G91 all
+// points are counted from there.
 void nurbs_point(const CodeRule& rule, BlockRun& run) {
   if (!allowed(run, rule)) return;
   ModalState& state = run.state;
@@ -106,16 +113,15 @@ void nurbs_point(const CodeRule& rule, BlockRun& run) {
   } else if (!run.has('P')) {
     return run.error("spline_error", rule,
                      "every control point of a NURBS needs P: its weight above 0");
-  } else if (!run.has('X') && !run.has('Y')) {
-    return run.error("axis_word_missing", rule, "a control point needs X or Y");
   }
+  if (!run.has('X') || !run.has('Y'))
+    return run.error("axis_word_missing", rule, "a control point needs both X and Y");
   if (state.nurbs_points >= max_points)
     return run.error("limit_reached", rule, "more than 100000 control points in one NURBS");
   const auto end = target_of(run);
   if (!end) return;
   points.push_back(at(*end, weight));
   ++state.nurbs_points;
-  state.tip = *end;
 }
 
 void nurbs_end(const CodeRule& rule, BlockRun& run) {
@@ -130,6 +136,8 @@ void nurbs_end(const CodeRule& rule, BlockRun& run) {
   curve.points.assign(run.session.nurbs.begin(), run.session.nurbs.begin() + state.nurbs_points);
   state.nurbs_points = 0;
   state.motion = 800;
+  state.tip[Axis::x] = curve.points.back().x;
+  state.tip[Axis::y] = curve.points.back().y;
   run.emit(std::move(curve));
 }
 

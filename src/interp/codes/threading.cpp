@@ -112,10 +112,14 @@ void Thread::execute() {
                       "the tapers of the thread are longer than the thread itself");
   if (std::pow(full_ / first_, degression_) > max_passes)
     return run_.error("limit_reached", 'J', "more than 10000 passes; use a larger J");
+  // Counted in the numbers of the words: whether a pass meets the full depth, as 3 × 0.3 does 0.9,
+  // is left to rounding on the control too.
+  const double to_number = (state_.lathe_diameter ? 0.5 : 1);
+  const double first = *run_.number('J') * to_number, full = *run_.number('K') * to_number;
   for (int n = 1; n <= max_passes; ++n) {
-    const double depth = first_ * std::pow(n, 1 / degression_);
-    if (depth > full_ - 1e-9) break;  // 3 × 0.3 is the full depth 0.9 too
-    pass(depth);
+    const double depth = first * std::pow(n, 1 / degression_);
+    if (depth >= full) break;
+    pass(depth * state_.unit_mm());
   }
   for (int i = 0; i <= spring_passes_; ++i) pass(full_);
   rapid(x0_, z_end_, "end");
@@ -140,7 +144,8 @@ void Thread::pass(double depth) {
   feed(cut, taper_out_ ? end - way * taper_ : end, pitch_);
   if (taper_out_) feed(tapered, end, stretched);
   rapid(clear, end, "out");
-  if (state_.feed_override) run_.emit(canon::Override{canon::Override::Kind::feed, true, 0});
+  // The control switches it on even when it was off before.
+  run_.emit(canon::Override{canon::Override::Kind::feed, true, 0});
 }
 
 void Thread::rapid(double x, double z, const char* what) {

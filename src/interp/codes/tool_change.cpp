@@ -13,7 +13,7 @@ void tool_word(BlockRun& run) {
                      "tool " + std::to_string(*number) +
                          " is not in the tool table; add it or select another one");
   run.state.selected_tool = *number;
-  run.emit(canon::SelectTool{*number});
+  run.emit_now(canon::SelectTool{*number});
 }
 
 void change_tool(const CodeRule& rule, BlockRun& run) {
