@@ -116,7 +116,6 @@ void ProgramMaker::tool_table() {
       add("G10 L11 P" + tool + offset_words());
   }
   if (one_in(2)) add("G43 H" + tool);
-  if (one_in(8)) add("G10 L0");
   add("G0" + axis_words(9));
 }
 

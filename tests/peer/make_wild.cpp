@@ -426,7 +426,7 @@ void ProgramMaker::hostile() {
             "G76 P1 Z-10 I0 J0.2 K1",
             "G76 P1 Z-10 I-1 J0 K1",
             "G76 P1 Z-10 I-1 J2 K1",
-            "G76 P1 Z-10 I-1 J0.2 K1 E50 L3",
+            
             "G76 P1 Z-10 I-1 J0.2 K1 L4",
 
             "G76 P1 Z-10 I-1 J0.2 K1 H1.5",
