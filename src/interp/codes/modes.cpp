@@ -197,9 +197,6 @@ std::optional<Cutter> cutter_of_words(const CodeRule& rule, BlockRun& run) {
 void radius_comp_on(const CodeRule& rule, BlockRun& run) {
   ModalState& state = run.state;
   if (refuse_with_comp(run, rule)) return;
-  if (state.plane != canon::Plane::xy && state.plane != canon::Plane::zx)
-    return run.error("comp_illegal", rule,
-                     "radius compensation needs the XY or ZX plane; give G17 or G18 before");
   const bool by_words = rule.code % 10 == 1;
   const auto cutter = by_words ? cutter_of_words(rule, run) : cutter_of_tool(rule, run);
   if (!cutter) return;
