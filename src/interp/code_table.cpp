@@ -106,9 +106,9 @@ constexpr CodeRule rows[] = {
     {'G', 520, G::non_modal,     P::non_modal,     own,    "",      local_offset},
     {'G', 530, G::non_modal,     P::non_modal,     none,   "",      machine_coordinates},
     {'G', 920, G::non_modal,     P::non_modal,     own,    "",      g92},
-    {'G', 921, G::offset_reset,  P::non_modal,     none,   "",      g92},
-    {'G', 922, G::offset_reset,  P::non_modal,     none,   "",      g92},
-    {'G', 923, G::offset_reset,  P::non_modal,     none,   "",      g92},
+    {'G', 921, G::offset_reset,  P::offset_reset,     none,   "",      g92},
+    {'G', 922, G::offset_reset,  P::offset_reset,     none,   "",      g92},
+    {'G', 923, G::offset_reset,  P::offset_reset,     none,   "",      g92},
     // M
     {'M',   0, G::stop,          P::stop,          none,   "",      program_stop},
     {'M',   1, G::stop,          P::stop,          none,   "",      program_stop},

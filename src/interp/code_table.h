@@ -71,6 +71,7 @@ enum class Phase : unsigned char {
   arc_centre,
   retract,
   non_modal,
+  offset_reset,
   motion,
   stop
 };

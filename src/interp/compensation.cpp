@@ -256,7 +256,7 @@ std::optional<Compensator::Path> Compensator::next_path(BlockRun& run, const Pla
     path.centre = point_of(state, middle);
     const double radius = norm(to - path.centre);
     const double outward = path.left_turn ? -side : side;  // +1: the tool runs outside the arc
-    if (outward < 0 && radius <= r) {
+    if (outward < 0 && radius <= r + same_point) {
       run.error("comp_arc", run.whole(),
                 "the tool with radius " + mm(r) + " does not fit inside this arc of radius " +
                     mm(radius));

@@ -147,6 +147,13 @@ void BlockExecutor::replace_code(const CodeRule& rule, Place place) {
   }
 }
 
+void BlockExecutor::drop_g80() {
+  const auto last = std::remove_if(items_.begin(), items_.begin() + count_, [](const Item& item) {
+    return item.rule && item.rule->letter == 'G' && item.rule->code == 800;
+  });
+  count_ = static_cast<std::size_t>(last - items_.begin());
+}
+
 // Behind G10 L50 the lines are data of the control until G11, or the end of the program.
 bool BlockExecutor::ends_data() const {
   for (const Word& word : block_.words)
@@ -193,6 +200,10 @@ bool BlockExecutor::collect() {
     const bool clash = (groups & group) && rule->group != ModalGroup::free;
     if (clash && word.letter == 'G' && run_.session.table.dialect().macro_b) {
       replace_code(*rule, word.place);
+    } else if (clash && rule->group == ModalGroup::motion && rule->code == 800) {
+      continue;  // G80 beside another motion code does nothing
+    } else if (clash && rule->group == ModalGroup::motion && run_.motion_rule->code == 800) {
+      drop_g80();
     } else if (clash) {
       run_.error("modal_clash", word.place,
                  name_of(*rule) + " stands on one line with another code of the same group (" +

@@ -179,6 +179,10 @@ void Interpreter::Impl::enter_while(Block& block, int at) {
     return;
   }
   if (running) loops.pop_back();
+  // On its way to the end the control meets the loop's own breaks.
+  for (int inside = at + 1; inside < entry(at).partner; ++inside)
+    if (entry(inside).keyword == Keyword::break_ && entry(inside).partner == at)
+      break_pending_ = true;
   jump_behind(entry(entry(at).partner));
 }
 

@@ -304,6 +304,7 @@ class BlockExecutor {
   void perform(const Item& item);
   void after_motion(const CodeRule& rule);
   void add(Phase phase, const CodeRule* rule, char letter);
+  void drop_g80();
   void replace_code(const CodeRule& rule, Place place);
 
   BlockRun& run_;

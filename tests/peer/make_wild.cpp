@@ -119,7 +119,7 @@ void ProgramMaker::wild() {
                                    {"G93", "FX"},
                                    {"G94", "FX"},
                                    {"G95", "FX"},
-                                   {"G96", "SD$"},
+                                   {"G96", "S$"},
                                    {"G97", "SD$"},
                                    {"G98", "XR"},
                                    {"G99", "XR"},
@@ -426,7 +426,7 @@ void ProgramMaker::hostile() {
             "G76 P1 Z-10 I0 J0.2 K1",
             "G76 P1 Z-10 I-1 J0 K1",
             "G76 P1 Z-10 I-1 J2 K1",
-            
+
             "G76 P1 Z-10 I-1 J0.2 K1 L4",
 
             "G76 P1 Z-10 I-1 J0.2 K1 H1.5",

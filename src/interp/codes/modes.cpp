@@ -89,6 +89,12 @@ void feed_word(BlockRun& run) {
   const double value = *run.number('F');
   if (value < 0) return run.error("word_value", 'F', "F, the feed, can't be negative");
   run.feed_given = true;
+  // With G93 it is for this line only.
+  if (run.state.feed_mode == canon::FeedMode::inverse_time) {
+    canon::SetFeedRate rate;
+    rate.value = value / 60;
+    return run.emit(rate);
+  }
   run.state.feed = value;
   emit_feed(run);
 }

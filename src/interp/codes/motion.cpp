@@ -112,7 +112,7 @@ std::optional<AxisValues> target_of(BlockRun& run) {
 
 bool feed_is_set(BlockRun& run, const CodeRule& rule) {
   if (run.state.feed_mode == canon::FeedMode::inverse_time) {
-    if (run.feed_given && run.state.feed > 0) return true;
+    if (run.feed_given && run.number_or('F', 0) > 0) return true;
     if (run.feed_given) {
       run.error("zero_feed", 'F', "in G93 F must be above 0: it is 1 / minutes of the move");
       return false;

@@ -142,7 +142,9 @@ void set_tool_data(const CodeRule& rule, BlockRun& run, int kind) {
   const AxisValues tip = to_tip(frame, wanted);
   for (const Axis axis : all_axes) {
     const auto value = run.axis(axis);
-    if (value) tool->offset[axis] = kind == 1 ? *value : point[axis] - tip[axis];
+    const bool turned = kind != 1 && frame.rotation != 0 && axis <= Axis::y &&
+                        (axes.has(Axis::x) || axes.has(Axis::y));
+    if (value || turned) tool->offset[axis] = kind == 1 ? *value : point[axis] - tip[axis];
   }
   set_lathe_data(run, *tool);
 }

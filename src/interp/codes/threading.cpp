@@ -116,9 +116,10 @@ void Thread::execute() {
   // is left to rounding on the control too.
   const double to_number = (state_.lathe_diameter ? 0.5 : 1);
   const double first = *run_.number('J') * to_number, full = *run_.number('K') * to_number;
+  const double peak = std::fabs(*run_.number('I')) * to_number;  // depths count from the drive line
   for (int n = 1; n <= max_passes; ++n) {
     const double depth = first * std::pow(n, 1 / degression_);
-    if (depth >= full) break;
+    if (peak + depth >= peak + full) break;
     pass(depth * state_.unit_mm());
   }
   for (int i = 0; i <= spring_passes_; ++i) pass(full_);
