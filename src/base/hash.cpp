@@ -5,11 +5,13 @@
 #include <array>
 
 namespace aircut {
+namespace {
 
-std::string sha256(std::string_view bytes) {
-  sha256_ctx context;
-  sha256_init(&context);
+void update(sha256_ctx& context, std::string_view bytes) {
   sha256_update(&context, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+}
+
+std::string digest_of(sha256_ctx& context) {
   std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
   sha256_digest(&context, digest.size(), digest.data());
   std::string out;
@@ -18,6 +20,29 @@ std::string sha256(std::string_view bytes) {
     out += "0123456789abcdef"[byte & 15];
   }
   return out;
+}
+
+}  // namespace
+
+std::string sha256(std::string_view bytes) {
+  sha256_ctx context;
+  sha256_init(&context);
+  update(context, bytes);
+  return digest_of(context);
+}
+
+std::string sha256(const SourceText& text) {
+  constexpr std::size_t part = 1 << 20;
+  const std::string_view bytes = text.content();
+  Reading reading(text);
+  sha256_ctx context;
+  sha256_init(&context);
+  for (std::size_t at = 0; at < bytes.size(); at += part) {
+    const std::string_view piece = bytes.substr(at, part);
+    update(context, piece);
+    reading.at(at, at + piece.size());
+  }
+  return digest_of(context);
 }
 
 }  // namespace aircut

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -18,7 +19,7 @@ class SourceText {
  public:
   /// Takes a copy of `content`; `name` is what messages call it (the path as the user wrote it).
   SourceText(std::string name, std::string content);
-  /// Refers to memory that `owner` keeps alive (a mapped file).
+  /// Refers to a mapped file that `owner` keeps mapped.
   SourceText(std::string name, std::string_view content, std::shared_ptr<const void> owner);
   SourceText(const SourceText&) = delete;
   SourceText& operator=(const SourceText&) = delete;
@@ -26,11 +27,39 @@ class SourceText {
   const std::string& name() const { return name_; }
   std::string_view content() const { return content_; }
 
+  /// Gives back the memory of a mapped file. The content stays: what is looked at again is read in
+  /// again.
+  void let_go() const;
+
  private:
   std::string name_;
   std::string own_;
   std::shared_ptr<const void> owner_;
   std::string_view content_;
+};
+
+/// Somebody who goes through a text and lets go of it now and then, so that a program of any length
+/// is read in a few MiB.
+class Reading {
+ public:
+  explicit Reading(const SourceText& text) : text_(text) {}
+  /// Tells that the bytes from `begin` to `end` are being looked at, or have been.
+  void at(std::uint64_t begin, std::uint64_t end) {
+    // A jump brings in the neighbourhood of the place as well.
+    unreleased_ += (begin == last_ ? 0 : neighbourhood) + (end - begin);
+    last_ = end;
+    if (unreleased_ < most_held) return;
+    text_.let_go();
+    unreleased_ = 0;
+  }
+
+ private:
+  static constexpr std::uint64_t most_held = 16 << 20;
+  static constexpr std::uint64_t neighbourhood = 2 << 20;  // as far as Linux maps around a place
+
+  const SourceText& text_;
+  std::uint64_t last_ = 0;
+  std::uint64_t unreleased_ = 0;
 };
 
 struct CallFrame;
@@ -41,7 +70,7 @@ struct SourceSpan {
   const SourceText* text = nullptr;  ///< owned by the run's SourceMap, outlives every span
   std::uint64_t begin = 0;           ///< byte offset of the first byte
   std::uint32_t length = 0;          ///< bytes
-  std::uint32_t line = 0;            ///< line number from 1
+  std::uint64_t line = 0;            ///< line number from 1
   std::shared_ptr<const CallFrame> calls = {};  ///< null in the main program outside of loops
 
   explicit operator bool() const { return text != nullptr; }
@@ -68,8 +97,13 @@ class SourceMap {
   /// Maps a regular file into memory. Errors (kind `input`): missing, unreadable, not a regular
   /// file.
   Expected<const SourceText*> open(const std::string& path);
+  /// Reads a stream to its end, e.g. standard input; a regular file is mapped, what is long goes
+  /// through a temporary file. Error kind `input`, also above 1 GiB from a pipe.
+  Expected<const SourceText*> read(std::FILE* stream, const std::string& name);
 
  private:
+  Expected<const SourceText*> map(int fd, std::string name);
+
   std::deque<SourceText> texts_;
 };
 

@@ -216,7 +216,7 @@ using Action =
 struct Command {
   Action action;
   SourceSpan span;          ///< the block
-  std::uint32_t block = 0;  ///< running number of executed blocks, from 1
+  std::uint64_t block = 0;  ///< running number of executed blocks, from 1
   /// Motion that a cycle (G81 …) or a return (G28) made out of the block, e.g. "G83 peck 2".
   std::string expanded = {};
 };

@@ -297,9 +297,9 @@ std::string to_json(const Command& command) {
   std::visit(Fields{object}, command.action);
   if (command.span) {
     object.text("file", command.span.text->name());
-    object.integer("line", command.span.line);
+    object.integer("line", static_cast<long long>(command.span.line));
   }
-  object.integer("block", command.block);
+  object.integer("block", static_cast<long long>(command.block));
   if (!command.expanded.empty()) object.text("expanded", command.expanded);
   return object.take();
 }

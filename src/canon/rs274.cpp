@@ -40,7 +40,7 @@ struct Rs274Writer::State {
   bool sync_open = false;
   double sync_pitch = 0;
   int sync_spindle = 0;
-  std::uint32_t sync_block = 0;
+  std::uint64_t sync_block = 0;
   std::uint32_t number = 0;
   std::string n_field = "N..... ";
   std::string out;
@@ -55,7 +55,7 @@ struct Rs274Writer::State {
   std::string six(const AxisValues& p_machine) const;
   std::string lengths(const AxisValues& mm) const;
   void header();
-  void open_sync(const SyncFeed& move, std::uint32_t block);
+  void open_sync(const SyncFeed& move, std::uint64_t block);
   void close_sync();
   void inverse_time_rate(double length_in_units);
   double straight_length(const AxisValues& end) const;
@@ -133,7 +133,7 @@ void Rs274Writer::State::header() {
   n_field = field;
 }
 
-void Rs274Writer::State::open_sync(const SyncFeed& move, std::uint32_t block) {
+void Rs274Writer::State::open_sync(const SyncFeed& move, std::uint64_t block) {
   if (sync_open && (sync_block != block || move.rigid_tap)) close_sync();
   if (!sync_open || sync_pitch != move.per_revolution || sync_spindle != move.spindle)
     line("START_SPEED_FEED_SYNC(" + fixed(length(move.per_revolution), 6) + "," +
@@ -204,7 +204,7 @@ namespace {
 /// Writes the lines of one command.
 struct Write {
   Rs274Writer::State& s;
-  std::uint32_t block;
+  std::uint64_t block;
 
   void operator()(const Rapid& c) const { s.line("STRAIGHT_TRAVERSE(" + s.six(c.end) + ")"); }
   void operator()(const LinearFeed& c) const {

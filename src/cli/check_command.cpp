@@ -95,6 +95,9 @@ int check_command(const CheckArguments& a) {
   report.diagnostics = job.diagnostics.list();
   if (job.machine) report.machine = job.machine->name();
 
+  // The other formats do not name the inputs.
+  const bool hashed = a.output.format == Format::json || a.output.format == Format::jsonl ||
+                      a.output.format == Format::sarif;
   const bool stream = a.output.format == Format::jsonl;
   const auto stream_shared = [&](std::size_t from) {  // messages of no program
     report::RunReport shared;
@@ -114,7 +117,7 @@ int check_command(const CheckArguments& a) {
     report::Unit unit;
     const std::size_t accepted_before = report.accepted.size();
     if (const auto program = open_program(*sources, path)) {
-      part.inputs.push_back({"program", path, sha256((*program)->content())});
+      part.inputs.push_back({"program", path, hashed ? sha256(**program) : ""});
       Diagnostics diagnostics;
       unit = check_program(job, a.program, **program, *sources, checks, diagnostics,
                            part.summary.program_refused);

@@ -6,7 +6,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <iterator>
 
 #include "cli/exit_code.h"
 #include "cli/print_report.h"
@@ -43,21 +42,6 @@ std::string hash_of_package(const std::string& folder) {
   return sha256(all);
 }
 
-Expected<const SourceText*> read_standard_input(SourceMap& sources) {
-  std::string text;
-  char buffer[65536];
-  std::size_t n = 0;
-  constexpr std::size_t largest = std::size_t{1} << 30;
-  while ((n = std::fread(buffer, 1, sizeof buffer, stdin)) > 0) {
-    text.append(buffer, n);
-    if (text.size() > largest)
-      return unexpected(make_error(
-          "input", "standard input is longer than 1 GiB; write the program to a file and name it"));
-  }
-  if (std::ferror(stdin)) return unexpected(make_error("input", "can't read standard input"));
-  return &sources.add("-", std::move(text));
-}
-
 // Sets the work offsets of a setup as the parameters that a control keeps them in.
 void apply_offsets(const machine::Setup& setup, interp::ParameterFile& parameters) {
   for (const auto& [system, offset] : setup.offsets) {
@@ -87,7 +71,7 @@ std::vector<std::string> package_folders() {
 }
 
 Expected<const SourceText*> open_program(SourceMap& sources, const std::string& path) {
-  return path == "-" ? read_standard_input(sources) : sources.open(path);
+  return path == "-" ? sources.read(stdin, path) : sources.open(path);
 }
 
 bool open_inputs(Job& job, const ProgramArguments& arguments) {

@@ -43,7 +43,8 @@ class Progress {
       return;
     last_ = now;
     written_ = true;
-    std::fprintf(stderr, "\r\x1b[Kline %u   %.1f s simulated   %.1f s worked", at.line, t,
+    std::fprintf(stderr, "\r\x1b[Kline %llu   %.1f s simulated   %.1f s worked",
+                 static_cast<unsigned long long>(at.line), t,
                  std::chrono::duration<double>(now - start_).count());
     std::fflush(stderr);
   }
@@ -130,7 +131,7 @@ int run_command(const RunArguments& a) {
   if (!rules) return fail(rules.error());
   const auto program = open_program(job.sources, a.program.program);
   if (!program) return fail(program.error());
-  job.inputs.push_back({"program", a.program.program, sha256((*program)->content())});
+  job.inputs.push_back({"program", a.program.program, sha256(**program)});
   if (!open_inputs(job, a.program)) return refuse(job.diagnostics, a.output);
   if (!a.folder.empty())
     if (auto ready = prepare_folder(a.folder, a.force); !ready) return fail(ready.error());

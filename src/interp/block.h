@@ -28,6 +28,7 @@ struct Word {
 struct Setting {
   Place place;             ///< of the target
   std::int32_t name = -1;  ///< id of a named parameter, else -1
+  std::int32_t plain = 0;  ///< number of a parameter that can be set at any time, else 0
   Value target;            ///< number of a numbered parameter
   Value value;
 };
@@ -82,12 +83,12 @@ struct OWord {
 struct BlockPlace {
   std::uint64_t begin = 0;  ///< byte offset of the line
   std::uint64_t after = 0;  ///< of the line behind it
-  std::uint32_t line = 0;   ///< from 1
+  std::uint64_t line = 0;   ///< from 1
 };
 
 struct Block {
   std::uint64_t begin = 0;       ///< byte offset of the line in its text
-  std::uint32_t line = 0;        ///< from 1
+  std::uint64_t line = 0;        ///< from 1
   std::uint32_t length = 0;      ///< bytes without line end and trailing blanks
   std::uint64_t next_begin = 0;  ///< where the following line starts
   bool block_delete = false;

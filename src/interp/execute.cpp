@@ -82,7 +82,11 @@ bool BlockExecutor::settings() {
   if (run_.session.table.dialect().macro_b) return macro_settings();
   Parameters& parameters = run_.session.parameters;
   // A line has room for no more settings than this: each takes four characters.
-  std::array<std::pair<std::int32_t, double>, 64> set;  // number, or -1 - name
+  struct Set {
+    std::int32_t target;  // number, or -1 - name
+    double value;
+  };
+  std::array<Set, 64> set;
   std::size_t count = 0;
   for (const Setting& setting : block_.settings) {
     const auto value = value_of(setting.value);

@@ -205,60 +205,62 @@ bool Machine::step(const Instruction& at) {
 
 }  // namespace
 
+// The top of the stack is kept in a register. What loops are made of is done here; the rest by the
+// machine, which sees the same stack.
 std::optional<double> evaluate(const Value& value, const Code& code, const Parameters& parameters,
                                std::optional<Fault>& fault) {
   if (value.constant()) return value.number;
   Machine machine(parameters, fault);
+  double* below = machine.stack.data();  // one behind the operands below the top
+  double top = 0;                        // the first push puts this aside, and nobody takes it
+  const auto push = [&](double number) {
+    *below++ = top;
+    top = number;
+  };
   const Instruction* at = code.data() + value.first;
   const Instruction* const end = at + value.count;
-  double* top = machine.stack.data() - 1;
-  // What loops are made of is done here; the rest by the machine, which sees the same stack.
   for (; at != end; ++at) {
+    double right = top;
+    if (at->right != Right::stack)
+      right = at->right == Right::number ? at->number : parameters.stored(at->id);
+    const auto left = [&] { return at->right == Right::stack ? *--below : top; };
     switch (at->op) {
       case Op::number:
-        *++top = at->number;
+        push(at->number);
         continue;
-      case Op::read:
-        if (at->id >= 1 && at->id < number::absolute_position) {
-          *++top = parameters.stored(at->id);
-          continue;
-        }
-        break;
       case Op::less:
-        --top;
-        top[0] = top[0] < top[1] ? 1 : 0;
+        top = left() < right ? 1 : 0;
         continue;
       case Op::add:
-        --top;
-        top[0] += top[1];
-        if (std::isfinite(*top)) continue;
+        top = left() + right;
         break;
       case Op::subtract:
-        --top;
-        top[0] -= top[1];
-        if (std::isfinite(*top)) continue;
+        top = left() - right;
         break;
       case Op::multiply:
-        --top;
-        top[0] *= top[1];
-        if (std::isfinite(*top)) continue;
+        top = left() * right;
         break;
-      default: {
-        machine.depth = static_cast<std::size_t>(top + 1 - machine.stack.data());
+      case Op::read:
+        if (Parameters::always_readable(at->id)) {
+          push(parameters.stored(at->id));
+          continue;
+        }
+        [[fallthrough]];
+      default:
+        if (at->right != Right::stack) push(right);
+        push(0);  // puts the top on the machine's stack
+        machine.depth = static_cast<std::size_t>(below - machine.stack.data());
         if (!machine.step(*at)) return std::nullopt;
-        top = machine.stack.data() + machine.depth - 1;
+        top = machine.pop();
+        below = machine.stack.data() + machine.depth;
         continue;
-      }
     }
-    if (at->op != Op::read) {
+    if (!std::isfinite(top)) {
       machine.fail(*at, not_finite);
       return std::nullopt;
     }
-    machine.depth = static_cast<std::size_t>(top + 1 - machine.stack.data());
-    if (!machine.step(*at)) return std::nullopt;
-    top = machine.stack.data() + machine.depth - 1;
   }
-  return *top;
+  return top;
 }
 
 std::optional<int> as_integer(double value) {

@@ -77,8 +77,16 @@ enum class Op : unsigned char {
 
 constexpr bool is_macro(Op op) { return op >= Op::vacant; }
 
+/// Where a binary operation finds its right operand. The left one is always on the stack.
+enum class Right : unsigned char {
+  stack,
+  number,     ///< the instruction's `number`
+  parameter,  ///< the parameter `id`, one of those that can always be read
+};
+
 struct Instruction {
   Op op = Op::number;
+  Right right = Right::stack;
   std::int32_t id = 0;
   double number = 0;
   Place place;  ///< for errors: the operator, function or parameter

@@ -175,8 +175,19 @@ bool LineParser::climb(int level) {
     if (!sees_vacant) make_solid();
     if (!climb(op->level + 1)) return false;
     if (!sees_vacant) make_solid();
-    emit(op->op, place);
+    emit_binary(op->op, place);
   }
+}
+
+// A right operand that is a number or a parameter as most are goes into the instruction itself: the
+// last instruction pushes only if it is the whole of the operand.
+void LineParser::emit_binary(Op op, Place place) {
+  Instruction& last = out_.code.back();
+  const bool plain = last.op == Op::read && Parameters::always_readable(last.id);
+  if (last.op != Op::number && !plain) return emit(op, place);
+  last.right = plain ? Right::parameter : Right::number;
+  last.op = op;
+  last.place = place;
 }
 
 bool LineParser::function(std::uint32_t begin) {

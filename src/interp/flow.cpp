@@ -94,17 +94,19 @@ bool is_percent(std::string_view line) {
 
 }  // namespace
 
-FlowIndex::FlowIndex(std::string_view text, std::uint64_t begin, bool block_delete,
+FlowIndex::FlowIndex(const SourceText& source, std::uint64_t begin, bool block_delete,
                      bool stops_at_percent, Parameters& parameters, const CodeTable& table) {
   if (table.dialect().macro_b) {
-    read_macro_b(text, begin, block_delete, stops_at_percent, parameters, table);
+    read_macro_b(source, begin, block_delete, stops_at_percent, parameters, table);
     return;
   }
+  const std::string_view text = source.content();
+  Reading reading(source);
   Block block;
-  std::uint32_t line_number = 0;
+  std::uint64_t line_number = 0;
   bool first = true;
   while (begin < text.size()) {
-    const LineExtent extent = find_line_end(text, begin);
+    const LineExtent extent = find_line_end(text, begin, &reading);
     const std::string_view line = text.substr(begin, extent.end - begin);
     ++line_number;
     if (stops_at_percent && is_percent(line)) {

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/source.h"
 #include "interp/block.h"
 
 namespace aircut::interp {
@@ -17,7 +18,7 @@ namespace aircut::interp {
 struct FlowEntry {
   std::uint64_t begin = 0;  ///< byte offset of the line
   std::uint64_t after = 0;  ///< byte offset of the line behind it
-  std::uint32_t line = 0;
+  std::uint64_t line = 0;
   Keyword keyword = Keyword::none;
   std::string label;
   Place place;                ///< of the O-word in its line
@@ -44,7 +45,7 @@ class CodeTable;
 
 class FlowIndex {
  public:
-  FlowIndex(std::string_view text, std::uint64_t begin, bool block_delete, bool stops_at_percent,
+  FlowIndex(const SourceText& source, std::uint64_t begin, bool block_delete, bool stops_at_percent,
             Parameters& parameters, const CodeTable& table);
 
   std::vector<FlowEntry> entries;
@@ -66,7 +67,7 @@ class FlowIndex {
   const NumberedBlock* find_block(std::int64_t number, std::uint64_t from) const;
 
  private:
-  void read_macro_b(std::string_view text, std::uint64_t begin, bool block_delete,
+  void read_macro_b(const SourceText& source, std::uint64_t begin, bool block_delete,
                     bool stops_at_percent, Parameters& parameters, const CodeTable& table);
   void connect_macro_b(int at);
   void close_loop(int at);

@@ -21,7 +21,7 @@ const char* word_of(Keyword keyword) {
 
 FlowIndex& Interpreter::Impl::flow_of(ProgramFile& file) {
   if (!file.flow)
-    file.flow = std::make_unique<FlowIndex>(file.text->content(), file.begin, options_.block_delete,
+    file.flow = std::make_unique<FlowIndex>(*file.text, file.begin, options_.block_delete,
                                             file.percent, parameters_, table_);
   return *file.flow;
 }
@@ -252,7 +252,7 @@ std::string Interpreter::Impl::tested_values(const Frame& frame, const FlowEntry
   for (const Instruction& i : block.code) {
     std::string name;
     std::optional<double> value;
-    if (i.op == Op::read || i.op == Op::read_system) {
+    if (i.op == Op::read || i.op == Op::read_system || i.right == Right::parameter) {
       name = "#" + std::to_string(i.id);
       value = parameters_.read(i.id, i.place, fault);
     } else if (i.op == Op::read_named) {

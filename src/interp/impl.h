@@ -18,7 +18,10 @@ namespace aircut::interp {
 
 /// One program text with what was found out about it.
 struct ProgramFile {
-  const SourceText* text = nullptr;
+  explicit ProgramFile(const SourceText& source) : text(&source), reading(source) {}
+
+  const SourceText* text;
+  Reading reading;
   std::uint64_t begin = 0;  ///< behind a byte order mark
   bool percent = false;     ///< starts and ends with `%`
   std::int64_t whole_program =
@@ -60,7 +63,7 @@ struct Frame {
   ProgramFile* file = nullptr;
   BlockPlace start;           ///< what a repeated call begins with; `after` and the line before it
   std::uint64_t at = 0;       ///< byte offset of the next line
-  std::uint32_t line = 0;     ///< number of the line before it
+  std::uint64_t line = 0;     ///< number of the line before it
   Block* last = nullptr;      ///< cached block that was executed last
   Block* upcoming = nullptr;  ///< the next line after a jump, when its block is known
   int sub = -1;               ///< entry of the sub
@@ -103,9 +106,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   const SourceSpan& span() override;
   std::optional<BlockPlace> find_block(std::int64_t number) override;
   std::optional<Fault> read_block(const BlockPlace& at, Block& out) override;
-  std::uint32_t block_number() const override {
-    return static_cast<std::uint32_t>(statistics_.blocks);
-  }
+  std::uint64_t block_number() const override { return statistics_.blocks; }
 
  private:
   // ---- LiveValues (live.cpp)
@@ -122,7 +123,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void store_offsets(ParameterFile& file) const;
   void apply_settings();
   bool text_is_readable();
-  void find_percent(ProgramFile& file) const;
+  bool find_first_line(ProgramFile& file) const;
   void emit_start_state();
 
   // ---- lines (interpreter.cpp)
@@ -134,7 +135,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   bool is_percent_line(const ProgramFile& file, std::string_view line) const;
   void execute(Block& block);
   void execute_words(Block& block);
-  bool plain_move(Block& block);
+  bool plain_move(const Block& block);
+  bool plain_settings(const Block& block);
   bool count_block();
   void stop() { done_ = true; }
 

@@ -69,6 +69,8 @@ struct Options {
   double g73_clearance = 0;                         ///< mm; 0: 0.254 mm (G21) or 0.010 in (G20)
   double g83_clearance = 0;                         ///< mm; 0: the same
   Limits limits;
+  /// Lines that most programs are made of go past the code table. Off only in tests, which compare.
+  bool fast_paths = true;
 };
 
 /// Sets `dialect` from what the text has (`--dialect auto`), and `dialect_reason`. A text without a

@@ -61,7 +61,7 @@ std::optional<canon::Command> Interpreter::Impl::next() {
 
 void Interpreter::Impl::parse_into(Frame& frame, Block& block) {
   const std::string_view text = frame.file->text->content();
-  const LineExtent extent = find_line_end(text, frame.at);
+  const LineExtent extent = find_line_end(text, frame.at, &frame.file->reading);
   std::uint64_t end = extent.end;
   while (end > frame.at && (text[end - 1] == ' ' || text[end - 1] == '\t')) --end;
   block.clear();
@@ -223,7 +223,7 @@ void Interpreter::Impl::run_block(BlockRun& run, Block& block) {
 // The line that programs are made of: G0 or G1 (given or modal) with axis words and nothing else,
 // in a state in which nothing about it can go wrong. It needs no copy of the state. Everything else
 // takes the way through the table, which gives the same for this line.
-bool Interpreter::Impl::plain_move(Block& block) {
+bool Interpreter::Impl::plain_move(const Block& block) {
   if (!block.plain_move || block.words.empty()) return false;
   ModalState& s = state_;
   int motion = s.motion;
@@ -241,7 +241,7 @@ bool Interpreter::Impl::plain_move(Block& block) {
   AxisValues tip = s.tip;
   const double unit = s.unit_mm();
   std::optional<Fault> fault;
-  for (Word& word : block.words) {
+  for (const Word& word : block.words) {
     if (word.rule) continue;
     const Axis axis = *axis_of_letter(word.letter);
     if (!options_.axes.empty() && !options_.axes.has(axis)) return false;
@@ -270,9 +270,37 @@ bool Interpreter::Impl::plain_move(Block& block) {
   return true;
 }
 
+// A line of settings and nothing else, none of which can fail once its value is known. As above,
+// the table gives the same.
+bool Interpreter::Impl::plain_settings(const Block& block) {
+  constexpr std::size_t most = 8;
+  if (!block.words.empty() || block.comment || block.settings.size() > most || failed_ ||
+      table_.dialect().macro_b)
+    return false;
+  std::array<double, most> values;
+  std::optional<Fault> fault;
+  for (std::size_t i = 0; i < block.settings.size(); ++i) {
+    const Setting& setting = block.settings[i];
+    if (setting.plain == 0 && (setting.name < 0 || parameters_.read_only_name(setting.name)))
+      return false;
+    const auto value = evaluate(setting.value, block.code, parameters_, fault);
+    if (!value) return false;
+    values[i] = *value;
+  }
+  for (std::size_t i = 0; i < block.settings.size(); ++i) {
+    const Setting& setting = block.settings[i];
+    if (setting.plain > 0)
+      parameters_.write(setting.plain, values[i]);
+    else
+      parameters_.write_named(setting.name, values[i]);
+  }
+  parameters_.commit();
+  return true;
+}
+
 void Interpreter::Impl::execute_words(Block& block) {
   if (contour_frame_ >= 0) return read_contour_block(block);
-  if (plain_move(block)) return;
+  if (options_.fast_paths && (plain_move(block) || plain_settings(block))) return;
   const bool settings_only = block.words.empty() && !block.comment;
   if (settings_only && (!table_.dialect().macro_b ||
                         block.plain_settings)) {  // settings alone leave the modal state as it is

@@ -1,5 +1,6 @@
 #include "interp/lexer.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
@@ -9,9 +10,10 @@
 namespace aircut::interp {
 namespace {
 
-constexpr std::array<double, 23> powers_of_ten = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                                  1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
-                                                  1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+constexpr std::array<double, 16> powers_of_ten = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
+                                                  1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+
+constexpr int most_digits = 15;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -35,7 +37,7 @@ std::uint32_t Cursor::length_since(std::uint32_t begin) const {
   return static_cast<std::uint32_t>(end - begin);
 }
 
-// A decimal with up to 2^53 in its digits and up to 22 decimals is mantissa / 10^k with a single,
+// A decimal of up to 15 digits (so below 2^53) is mantissa / 10^k with a single,
 // correct rounding; others go the long way.
 bool Cursor::read_digits(double& number) {
   const std::size_t start = at_;
@@ -43,14 +45,12 @@ bool Cursor::read_digits(double& number) {
   int digits = 0;
   int decimals = 0;
   bool point = false;
-  bool exact = true;
   while (at_ < line_.size()) {
     const char c = line_[at_];
     if (is_digit(c)) {
-      if (mantissa > (1ULL << 53) / 10 - 1) exact = false;
-      if (exact) mantissa = mantissa * 10 + static_cast<unsigned>(c - '0');
+      if (digits < most_digits) mantissa = mantissa * 10 + static_cast<unsigned>(c - '0');
       ++digits;
-      if (point) ++decimals;
+      decimals += point ? 1 : 0;
       ++at_;
     } else if (c == '.' && !point) {
       point = true;
@@ -65,7 +65,7 @@ bool Cursor::read_digits(double& number) {
     at_ = start;
     return false;
   }
-  if (exact && decimals <= 22) {
+  if (digits <= most_digits) {
     number = static_cast<double>(mantissa) / powers_of_ten[static_cast<std::size_t>(decimals)];
     return true;
   }
@@ -78,17 +78,29 @@ bool Cursor::read_digits(double& number) {
   return true;
 }
 
-LineExtent find_line_end(std::string_view text, std::uint64_t begin) {
-  const char* first = text.data() + begin;
-  const std::size_t rest = text.size() - begin;
-  const void* lf = std::memchr(first, '\n', rest);
-  std::size_t length = lf ? static_cast<std::size_t>(static_cast<const char*>(lf) - first) : rest;
-  // A lone CR ends a line too; one in front of LF belongs to the line end.
-  const void* cr = std::memchr(first, '\r', length);
-  if (!cr) return {begin + length, begin + length + (lf ? 1 : 0)};
-  const std::size_t at = static_cast<std::size_t>(static_cast<const char*>(cr) - first);
-  const bool pair = at + 1 < rest && first[at + 1] == '\n';
-  return {begin + at, begin + at + (pair ? 2 : 1)};
+// A lone CR ends a line too; one in front of LF belongs to the line end. The text is gone through
+// in parts: looking for an LF far ahead would take a text that has only CRs a square of its length.
+LineExtent find_line_end(std::string_view text, std::uint64_t begin, Reading* reading) {
+  constexpr std::size_t part = 1024;
+  std::uint64_t from = begin;
+  while (from < text.size()) {
+    const char* first = text.data() + from;
+    std::size_t length = std::min<std::size_t>(text.size() - from, part);
+    const void* lf = std::memchr(first, '\n', length);
+    if (lf) length = static_cast<std::size_t>(static_cast<const char*>(lf) - first);
+    const void* cr = std::memchr(first, '\r', length);
+    if (cr) length = static_cast<std::size_t>(static_cast<const char*>(cr) - first);
+    const std::uint64_t end = from + length;
+    if (lf || cr) {
+      const bool pair = cr && end + 1 < text.size() && text[end + 1] == '\n';
+      const std::uint64_t next = end + (pair ? 2 : 1);
+      if (reading) reading->at(from, next);
+      return {end, next};
+    }
+    if (reading) reading->at(from, end);
+    from = end;
+  }
+  return {text.size(), text.size()};
 }
 
 }  // namespace aircut::interp

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "base/source.h"
+
 namespace aircut::interp {
 
 class Cursor {
@@ -54,6 +56,7 @@ struct LineExtent {
   std::uint64_t end = 0;   ///< first byte of the line end
   std::uint64_t next = 0;  ///< first byte of the next line
 };
-LineExtent find_line_end(std::string_view text, std::uint64_t begin);
+/// `reading` is told what is looked at.
+LineExtent find_line_end(std::string_view text, std::uint64_t begin, Reading* reading = nullptr);
 
 }  // namespace aircut::interp

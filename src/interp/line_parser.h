@@ -95,8 +95,9 @@ class LineParser {
   const Operator* peek_operator();
   std::uint32_t operator_length(const Operator& op) const;
   void emit(Op op, Place place, double number = 0, std::int32_t id = 0) {
-    out_.code.push_back({op, id, number, place});
+    out_.code.push_back({op, Right::stack, id, number, place});
   }
+  void emit_binary(Op op, Place place);
 
   Cursor in_;
   Parameters& parameters_;

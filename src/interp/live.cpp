@@ -73,7 +73,7 @@ double Interpreter::Impl::predefined(int which) const {
   const tool::Tool* selected = tools_.find(s.selected_tool);
   switch (which) {
     case 0:
-      return frames_.back().line;
+      return static_cast<double>(frames_.back().line);
     case 1:
       return s.motion;
     case 2:

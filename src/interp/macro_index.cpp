@@ -86,14 +86,16 @@ auto key(const NumberedBlock& block) {
 
 }  // namespace
 
-void FlowIndex::read_macro_b(std::string_view text, std::uint64_t begin, bool block_delete,
+void FlowIndex::read_macro_b(const SourceText& source, std::uint64_t begin, bool block_delete,
                              bool stops_at_percent, Parameters& parameters,
                              const CodeTable& table) {
   Block block;
-  std::uint32_t line_number = 0;
+  const std::string_view text = source.content();
+  Reading reading(source);
+  std::uint64_t line_number = 0;
   bool first = true;
   while (begin < text.size()) {
-    const LineExtent extent = find_line_end(text, begin);
+    const LineExtent extent = find_line_end(text, begin, &reading);
     const std::string_view line = text.substr(begin, extent.end - begin);
     const std::uint64_t at = std::exchange(begin, extent.next);
     ++line_number;

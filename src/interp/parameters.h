@@ -62,6 +62,8 @@ class Parameters {
   // ---- numbered
   static bool in_range(int n) { return n >= 1 && n <= number::last; }
   static bool read_only(int n);
+  /// True for the numbers that are nothing but stored: they can be read and set at any time.
+  static constexpr bool always_readable(int n) { return n >= 1 && n < number::absolute_position; }
   std::optional<double> read(int n, Place place, std::optional<Fault>& fault) const {
     if (n >= 1 && n < first_computed_) return values_[static_cast<std::size_t>(n)];
     return read_high(n, place, fault);

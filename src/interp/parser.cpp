@@ -139,6 +139,9 @@ bool LineParser::setting() {
     setting.name = parameters_.intern(*name);
   } else if (!value(setting.target)) {
     return false;
+  } else if (setting.target.constant()) {
+    const int number = as_integer(setting.target.number).value_or(0);
+    if (Parameters::always_readable(number)) setting.plain = number;
   }
   setting.place.length = in_.length_since(setting.place.begin);
   if (!in_.accept('='))
@@ -179,8 +182,9 @@ std::optional<Fault> parse_line(std::string_view line, Parameters& parameters,
 std::optional<double> constant_value(const Value& value, const Code& code) {
   if (value.constant()) return value.number;
   for (std::uint32_t i = 0; i < value.count; ++i) {
-    const Op op = code[value.first + i].op;
-    if (op >= Op::read && op <= Op::exists_named) return std::nullopt;
+    const Instruction& at = code[value.first + i];
+    if (at.op >= Op::read && at.op <= Op::exists_named) return std::nullopt;
+    if (at.right == Right::parameter) return std::nullopt;
   }
   class NoLive final : public LiveValues {
     std::optional<double> numbered(int, Place, std::optional<Fault>&) const override {

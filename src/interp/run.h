@@ -75,7 +75,7 @@ class Site {
  public:
   virtual ~Site() = default;
   virtual const SourceSpan& span() = 0;
-  virtual std::uint32_t block_number() const = 0;
+  virtual std::uint64_t block_number() const = 0;
   virtual std::optional<BlockPlace> find_block(std::int64_t number) = 0;
   virtual std::optional<Fault> read_block(const BlockPlace& at, Block& out) = 0;
 };

@@ -183,24 +183,25 @@ bool Interpreter::Impl::text_is_readable() {
   });
   if (odd > 8 && static_cast<std::size_t>(odd) * 20 > head.size())
     return refuse("encoding", "this is not a text but binary data; give an NC program");
-  if (text.substr(file.begin).find_first_not_of(" \t\r\n") == std::string_view::npos)
+  if (!find_first_line(file))
     return refuse("empty_program", "the program is empty; it needs at least M2");
-  find_percent(file);
   return true;
 }
 
-// The first line that is not blank decides whether `%` brackets the program.
-void Interpreter::Impl::find_percent(ProgramFile& file) const {
+// The first line that is not blank decides whether `%` brackets the program. False when there is
+// none.
+bool Interpreter::Impl::find_first_line(ProgramFile& file) const {
   const std::string_view text = file.text->content();
   for (std::uint64_t at = file.begin; at < text.size();) {
-    const LineExtent extent = find_line_end(text, at);
+    const LineExtent extent = find_line_end(text, at, &file.reading);
     const std::string_view line = trimmed(text.substr(at, extent.end - at));
     if (!line.empty()) {
       file.percent = table_.dialect().macro_b ? line.front() == '%' : line == "%";
-      return;
+      return true;
     }
     at = extent.next;
   }
+  return false;
 }
 
 // A file without a program header is run from its first line, behind the `%`.
@@ -239,8 +240,7 @@ void Interpreter::Impl::emit_start_state() {
 ProgramFile& Interpreter::Impl::file_for(const SourceText& text) {
   auto& slot = files_[&text];
   if (!slot) {
-    slot = std::make_unique<ProgramFile>();
-    slot->text = &text;
+    slot = std::make_unique<ProgramFile>(text);
   }
   return *slot;
 }

@@ -174,7 +174,7 @@ bool Interpreter::Impl::count_file(ProgramFile& file, Place place) {
   }
   opened_order_.push_back(&file);
   if (file.text->content().starts_with("\xef\xbb\xbf")) file.begin = 3;
-  find_percent(file);
+  find_first_line(file);
   return true;
 }
 

@@ -85,7 +85,7 @@ struct Finding {
   std::string message;  ///< one sentence
   SourceSpan span;
   std::string expanded;
-  std::uint32_t block = 0;              ///< running number of the executed block
+  std::uint64_t block = 0;              ///< running number of the executed block
   double t_block = 0, t_block_end = 0;  ///< time of the part of the block that was looked at, s
   int tool = 0;
   std::string tool_name;

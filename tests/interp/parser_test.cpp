@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "interp/code_table.h"
 #include "interp/lexer.h"
 #include "interp/parameters.h"
@@ -116,6 +118,45 @@ TEST(Lines, EndWithLfCrLfOrCr) {
   EXPECT_EQ(find_line_end(text, 4).end, 6u);
   EXPECT_EQ(find_line_end(text, 4).next, 7u);
   EXPECT_EQ(find_line_end(text, 7).next, 9u);
+}
+
+// A right operand inside its instruction, and the same operand by way of the stack.
+TEST_F(Parsing, OperandsGiveTheSameHoweverTheyAreReached) {
+  parameters.write(3, 2);
+  for (const char* op : {"+", "-", "*", "/", "**", " mod ", " eq ", " ne ", " gt ", " ge ", " lt ",
+                         " le ", " and ", " or ", " xor "})
+    for (const double a : {-2.5, -1.0, 0.0, 3.0, 1e200})
+      for (const double b : {-2.0, 0.0, 0.5, 1.00005, 3.0, 1e200}) {
+        parameters.write(1, a);
+        parameters.write(2, b);
+        const std::string direct = value("[#1" + std::string(op) + "#2]");
+        EXPECT_EQ(value("[#1" + std::string(op) + "##3]"), direct) << a << op << b;
+        EXPECT_EQ(value("[#1" + std::string(op) + "-[-#2]]"), direct) << a << op << b;
+        EXPECT_EQ(value("[#1" + std::string(op) + fixed(b, 5) + "]"), direct) << a << op << b;
+        EXPECT_EQ(value("[" + fixed(a, 5) + op + fixed(b, 5) + "]"), direct) << a << op << b;
+      }
+}
+
+TEST(LineEnds, AreFoundInTextsOfAnyMixture) {
+  std::mt19937 random(7);
+  for (int round = 0; round < 300; ++round) {
+    // Long runs of letters, so that line ends also fall around the borders of what is looked at.
+    std::string text;
+    while (text.size() < 5000) {
+      if (random() % 3 == 0) text.append(random() % 1100, 'x');
+      text += "\n\rx"[random() % 3];
+    }
+    for (std::uint64_t at = 0; at < text.size();) {
+      std::uint64_t end = at;
+      while (end < text.size() && text[end] != '\n' && text[end] != '\r') ++end;
+      std::uint64_t next = std::min<std::uint64_t>(end + 1, text.size());
+      if (end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n') ++next;
+      const LineExtent found = find_line_end(text, at);
+      ASSERT_EQ(found.end, end);
+      ASSERT_EQ(found.next, next);
+      at = next;
+    }
+  }
 }
 
 }  // namespace
