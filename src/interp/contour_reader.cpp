@@ -109,13 +109,13 @@ void ContourReader::add(BlockRun& run, const CodeRule& rule, PlanePoint start, P
   lines_.push_back(run.block.line);
 }
 
-std::uint32_t ContourReader::line_of(std::size_t piece) const {
+std::uint64_t ContourReader::line_of(std::size_t piece) const {
   return lines_.empty() ? 0 : lines_[std::min(piece, lines_.size() - 1)];
 }
 
 bool ContourReader::finish(std::string& problem) {
   Contour whole;
-  std::vector<std::uint32_t> lines;
+  std::vector<std::uint64_t> lines;
   for (std::size_t i = 0; i < contour_.size(); ++i) {
     whole.push_back(contour_[i]);
     lines.push_back(lines_[i]);

@@ -21,14 +21,14 @@ class ContourReader {
   /// The first piece is the way from the start point to the first point.
   const Contour& contour() const { return contour_; }
   /// Line of the program that a piece comes from.
-  std::uint32_t line_of(std::size_t piece) const;
+  std::uint64_t line_of(std::size_t piece) const;
 
  private:
   void add(BlockRun& run, const CodeRule& rule, PlanePoint start, PlanePoint end);
 
   Contour contour_;
   std::vector<CornerWord> corners_;  ///< at the end of each piece
-  std::vector<std::uint32_t> lines_;
+  std::vector<std::uint64_t> lines_;
   double feed_ = 0;  ///< of the last F word, mm/min or mm/rev as programmed, 0 without
 };
 
