@@ -102,7 +102,7 @@ struct ProgramCheck::State {
   bool speed_checked = false;
   bool stop_told = false, speed_told = false;
   std::optional<Diagnostic> held;      ///< a cut with the spindle stopped, unless the tool probes
-  std::uint32_t stopped_in_block = 0;  ///< the block that stopped a turning spindle
+  std::uint64_t stopped_in_block = 0;  ///< the block that stopped a turning spindle
   canon::FeedMode feed_mode = canon::FeedMode::per_minute;
 
   // ---- frames
