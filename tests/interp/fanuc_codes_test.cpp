@@ -41,7 +41,7 @@ std::string commands_of(const std::string& program, const Setting& setting, unsi
   unsigned last = 0;
   for (const char c : program) last += c == '\n';
   for (std::size_t i = 0; i < ran.commands.size(); ++i) {
-    const std::uint32_t line = ran.commands[i].span.line;
+    const std::uint64_t line = ran.commands[i].span.line;
     if (line <= skip || line > last + 1) continue;
     out += (out.empty() ? "" : " | ") + ran.texts[i];
   }
