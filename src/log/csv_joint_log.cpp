@@ -28,6 +28,7 @@ enum Flag : unsigned {
   velocity_limited = 8,
   acceleration_limited = 16,
   jerk_limited = 32,
+  locked_to_spindle = 64,
   warning = 128,
 };
 
@@ -49,6 +50,21 @@ unsigned flags_of(const plan::Segment& segment) {
       return flags | jerk_limited;
   }
   return flags;
+}
+
+// In the spindle once the segment is done.
+int tool_after(const plan::Segment& segment) {
+  if (const auto* change = std::get_if<canon::ChangeTool>(&segment.command.action))
+    return change->number;
+  if (const auto* number = std::get_if<canon::SetToolNumber>(&segment.command.action))
+    return number->number;
+  return segment.tool;
+}
+
+// How far a synchronised axis is behind the spindle, mm; nothing where it is not synchronised.
+std::optional<double> sync_error(const plan::Segment& segment, double t, double s) {
+  if (!segment.sync) return std::nullopt;
+  return segment.sync->pitch * std::abs(plan::spindle_turns(segment, t)) - s;
 }
 
 // True when F counts degrees: the block moves rotary axes alone.
@@ -147,11 +163,11 @@ void CsvJointLog::Impl::step(const sim::Step& step) {
     if (next % static_cast<std::uint64_t>(options.every) == 0)
       sample(step, std::max(static_cast<double>(next) * options.period, t0));
   end_time = t1;
-  revolutions += segment.spindle_rpm / 60 * (t1 - t0);
+  revolutions += plan::spindle_turns(segment, t1 - t0);
   rest = plan::Segment{};
   rest.command.span = segment.command.span;
   rest.command.block = segment.command.block;
-  rest.tool = segment.tool;
+  rest.tool = tool_after(segment);
   rest.tool_offset = segment.tool_offset;
   rest.spindle_rpm = segment.spindle_rpm;
   rest.failure = segment.failure;
@@ -198,9 +214,13 @@ void CsvJointLog::Impl::row(const plan::Segment& segment, const motion::JointSta
   for (const Axis axis : all_axes) number(tip[axis] * (is_rotary(axis) ? degrees : 1));
   rows += ',';
   rows += std::to_string(segment.tool);
-  number(segment.spindle_rpm);
-  number(revolutions + segment.spindle_rpm / 60 * (t - segment.t_start));
-  number(0);  // sync_error: nothing is synchronised to the spindle
+  const double since = std::max(t - segment.t_start, 0.0);
+  const auto error = sync_error(segment, since, state.s);
+  constexpr double locked = 1e-4;  // mm
+  if (error && std::abs(*error) < locked) flags |= locked_to_spindle;
+  number(plan::spindle_rpm(segment, since));
+  number(revolutions + plan::spindle_turns(segment, since));
+  number(error.value_or(0));
   rows += ',';
   rows += std::to_string(flags);
   rows += '\n';

@@ -137,6 +137,7 @@ void Chain::drain_jerk_stage() {
 void Chain::hand_out(Segment segment) {
   segment.t_start = clock_;
   clock_ += segment.duration();
+  turns_ += plan::spindle_turns(segment, segment.duration());
   ready_.push_back(std::move(segment));
 }
 

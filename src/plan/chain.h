@@ -30,6 +30,8 @@ class Chain {
   void stop();
 
   std::optional<Segment> take();
+  /// Revolutions of the spindle at the end of what was handed out.
+  double spindle_turns() const { return turns_; }
 
  private:
   struct Item {
@@ -50,6 +52,7 @@ class Chain {
   std::size_t next_try_ = 512;  ///< nodes at which it is worth looking for final pieces
   double b_ = 0;      ///< squared speed at the start of the window, in its first piece's s
   double clock_ = 0;  ///< program time, s
+  double turns_ = 0;
   std::optional<JerkStage> jerk_;  ///< when a joint has a jerk limit
   std::deque<Segment> ready_;
 };

@@ -124,6 +124,14 @@ struct Failure {
   AxisValues pose;      ///< the tip that can't be reached
 };
 
+/// How a synchronised segment and the spindle go together.
+struct Sync {
+  double pitch = 0;  ///< mm of way per revolution
+  bool spindle_follows =
+      false;         ///< its angle is that of the way (tapping); else it turns on evenly
+  double sense = 1;  ///< of the spindle where it follows: 1 = clockwise
+};
+
 /// One command carried out: a piece of path with its time law. Commands that do not move give a
 /// segment with a Hold and the time they take (0 for most), so every command reaches the listeners
 /// in order.
@@ -136,17 +144,23 @@ struct Segment {
   AxisValues tool_offset;  ///< length offset in force
   bool merged = false;     ///< part of a chord that replaces several lines (G64 Q)
   double feed = 0;         ///< commanded speed along the feed metric, mm/s (rad/s); 0 = rapid
-  int tool = 0;            ///< in the spindle during the segment
+  int tool = 0;            ///< in the spindle; during a tool change still the old one
   double spindle_rpm = 0;  ///< signed, clockwise positive
   int work_system = 1;     ///< 1 = G54 … 9 = G59.3
   /// The part of the block's path that this segment covers (a block may be split by blends).
   double u0 = 0, u1 = 1;
   LimitedBy limited_by = LimitedBy::none;  ///< what held the speed longest
-  std::optional<Failure> failure;          ///< the run ends here
+  std::optional<Sync> sync;                ///< of synchronised motion
+  std::string sync_problem;        ///< why the axis can't keep to the spindle; empty = it can
+  std::optional<Failure> failure;  ///< the run ends here
 
   double duration() const { return profile.duration(); }
   double t_end() const { return t_start + duration(); }
 };
+
+/// Revolutions of the spindle since the segment's start, and its speed, `t` s after the start.
+double spindle_turns(const Segment& segment, double t);
+double spindle_rpm(const Segment& segment, double t);
 
 struct Options {
   double period = 0.001;           ///< servo period, s

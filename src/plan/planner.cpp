@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "plan/merger.h"
+#include "plan/spline.h"
+#include "plan/sync.h"
 
 namespace aircut::plan {
 namespace {
@@ -26,6 +28,11 @@ class Planner::Impl {
  private:
   Expected<void> move(const canon::Command& command, Path path, MotionKind kind, double feed);
   Expected<void> feed_move(const canon::Command& command, Path path, MotionKind kind);
+  Expected<void> spline(const canon::Command& command, const canon::SplineFeed& spline);
+  Expected<void> probe(const canon::Command& command, const canon::Probe& probe);
+  Expected<void> sync(const canon::Command& command, const canon::SyncFeed& sync);
+  void push_sync(const canon::Command& command, const Line& line, const canon::SyncFeed& sync,
+                 const Shaper::StraightRun& run, SyncLaw law);
   Expected<double> feed_of(Metric metric, double way) const;
   Segment segment(const canon::Command& command, MotionKind kind) const;
   /// A segment without way that takes `seconds`, or rides along when it takes none.
@@ -189,12 +196,142 @@ Expected<void> Planner::Impl::feed_move(const canon::Command& command, Path path
   return move(command, std::move(path), kind, *feed);
 }
 
+// A curve is a chain of moves that touch; it is one command.
+Expected<void> Planner::Impl::spline(const canon::Command& command,
+                                     const canon::SplineFeed& spline) {
+  const std::vector<Blend> pieces = spline_pieces(tip_, spline);
+  double whole = 0;
+  for (const Blend& piece : pieces) whole += piece.length;
+  if (pieces.empty()) return still(command);
+  const auto feed = feed_of(Metric::xyz, whole);
+  if (!feed) return unexpected(at(command, feed.error().kind, feed.error().message));
+  double done = 0;
+  for (const Blend& piece : pieces) {
+    Move out;
+    out.segment = segment(command, MotionKind::feed);
+    out.segment.path = piece;
+    out.segment.feed = *feed;
+    out.segment.u0 = done / whole;
+    done += piece.length;
+    out.segment.u1 = done / whole;
+    out.metric = Metric::xyz;
+    out.feed = *feed;
+    out.mode = path_mode_;
+    out.tolerance = path_tolerance_;
+    tip_ = piece.control.back();
+    merger_.push(std::move(out));
+  }
+  return {};
+}
+
+// Without a model of what is touched: to the end of the move, where it comes to rest.
+Expected<void> Planner::Impl::probe(const canon::Command& command, const canon::Probe& probe) {
+  merger_.stop();
+  auto done = feed_move(command, make_line(tip_, probe.end), MotionKind::probe);
+  merger_.stop();
+  return done;
+}
+
+// G33 and G33.1. The motion rests before, waits for the spindle's index, and rests afterwards.
+Expected<void> Planner::Impl::sync(const canon::Command& command, const canon::SyncFeed& sync) {
+  if (css_ || sync.spindle != 0)
+    return no_model(command, css_ ? "synchronised motion under constant surface speed (G96)"
+                                  : "motion synchronised to a second spindle");
+  const double speed = sync.per_revolution * std::abs(rpm()) / 60;
+  if (!(speed > 0))
+    return unexpected(at(command, "feed_missing",
+                         "synchronised motion needs a turning spindle (S and M3 or M4) and a way "
+                         "per revolution K above 0"));
+  const Line line = make_line(tip_, sync.end);
+  if (metric_of(line) == Metric::none) return still(command);
+  merger_.stop();
+  const auto run = shaper_.straight_run(line, tool_offset_);
+  auto law = run ? sync_law(line.length, speed, run->limits) : std::nullopt;
+  if (law) {
+    push_sync(command, line, sync, *run, std::move(*law));
+    if (!sync.rigid_tap) tip_ = line.end;
+    return {};
+  }
+  // As fast as it goes, with what is wrong; a way that can't be reached fails there.
+  std::string problem;
+  if (run)
+    problem = run->limits.v > speed
+                  ? "the way of " + shortest(line.length) +
+                        " mm is too short for the axis to catch up with the spindle"
+                  : "the spindle asks for " + shortest(speed * 60) + " mm/min, the axis can do " +
+                        shortest(run->limits.v * 60);
+  const AxisValues start = tip_;
+  const auto go = [&](const AxisValues& end, double u0, double u1) {
+    Move out;
+    out.segment = segment(command, MotionKind::sync);
+    out.segment.path = make_line(tip_, end);
+    out.segment.feed = speed;
+    out.segment.sync_problem = u0 == 0 ? problem : std::string{};
+    out.segment.u0 = u0;
+    out.segment.u1 = u1;
+    out.metric = metric_of(out.segment.path);
+    out.feed = speed;
+    out.mode = canon::PathMode::exact_stop;
+    tip_ = end;
+    merger_.push(std::move(out));
+    merger_.stop();
+  };
+  go(line.end, 0, sync.rigid_tap ? 0.5 : 1);
+  if (sync.rigid_tap) go(start, 0.5, 1);
+  return {};
+}
+
+// The wait for the index, the locked way, the stop; a tap's spindle slows down with the axis, turns
+// round and brings it back.
+void Planner::Impl::push_sync(const canon::Command& command, const Line& line,
+                              const canon::SyncFeed& sync, const Shaper::StraightRun& run,
+                              SyncLaw law) {
+  const double turns = std::abs(shaper_.spindle_turns());
+  const double wait = (std::ceil(turns - 1e-9) - turns) * 60 / std::abs(rpm());
+  const double down = sync.rigid_tap ? 0.5 : 1, sense = rpm() > 0 ? 1 : -1;
+  const double speed = sync.per_revolution * std::abs(rpm()) / 60;
+  machine::JointVector start = shaper_.joints();
+  Segment index = segment(command, MotionKind::sync);
+  if (wait > 0) index.profile.knots = {{0, 0, 0, 0, 0}, {wait, 0, 0, 0, 0}};
+  index.u1 = 0;
+  shaper_.push_planned(std::move(index), start);
+  const auto piece = [&](const Line& path, double s0, double s1, SpeedProfile profile,
+                         std::optional<Sync> with, double u0, double u1) {
+    Segment out = segment(command, MotionKind::sync);
+    out.path = sub_path(path, s0, s1);
+    profile.knots.back().s = s1 - s0;
+    out.profile = std::move(profile);
+    out.feed = speed;
+    out.sync = with;
+    out.u0 = u0;
+    out.u1 = u1;
+    return out;
+  };
+  const double cut = law.lock.knots.back().s, share = down * cut / line.length;
+  const Sync locked{sync.per_revolution, false, sense}, follows{sync.per_revolution, true, sense};
+  shaper_.push_planned(piece(line, 0, cut, std::move(law.lock), locked, 0, share), run.end);
+  shaper_.push_planned(piece(line, cut, line.length, std::move(law.stop),
+                             sync.rigid_tap ? std::optional(follows) : std::nullopt, share, down),
+                       run.end);
+  if (!sync.rigid_tap) return;
+  StraightLimits limits = run.limits;
+  limits.v = std::min(limits.v, speed * sync.return_factor);
+  const Line back = make_line(line.end, line.start);
+  const Sync reversed{sync.per_revolution, true, -sense};
+  shaper_.push_planned(piece(back, 0, back.length, s_curve(back.length, limits), reversed, 0.5, 1),
+                       start);
+}
+
 Expected<void> Planner::Impl::push(const canon::Command& command) {
   if (broken_) return unexpected(*broken_);
   return std::visit(
       overloaded{
           [&](const canon::Rapid& c) -> Expected<void> {
-            if (machine_.rapid() != machine::RapidMode::coordinated)
+            // Where each joint is an axis, straight in joint space is straight in program space.
+            const bool straight = machine_.rapid() == machine::RapidMode::coordinated ||
+                                  (machine_.rapid() == machine::RapidMode::joint &&
+                                   machine_.kinematics().type() == "identity");
+            if (!straight)
               return no_model(command, "a rapid that is not coordinated (machine key `rapid`)");
             return move(command, make_line(tip_, c.end), MotionKind::rapid, infinity);
           },
@@ -207,11 +344,9 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
             if (!arc) return unexpected(at(command, arc.error().kind, arc.error().message));
             return feed_move(command, std::move(*arc), MotionKind::arc);
           },
-          [&](const canon::SplineFeed&) { return no_model(command, "a spline (G5.2)"); },
-          [&](const canon::SyncFeed&) {
-            return no_model(command, "spindle-synchronised motion (G33, G33.1)");
-          },
-          [&](const canon::Probe&) { return no_model(command, "probing (G38)"); },
+          [&](const canon::SplineFeed& c) { return spline(command, c); },
+          [&](const canon::SyncFeed& c) { return sync(command, c); },
+          [&](const canon::Probe& c) { return probe(command, c); },
           [&](const canon::Dwell& c) { return barrier(command, c.seconds, MotionKind::dwell); },
           [&](const canon::SetFeedMode& c) {
             feed_mode_ = c.mode;
@@ -273,14 +408,14 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
           },
           [&](const canon::SelectTool&) { return still(command); },
           [&](const canon::ChangeTool& c) {
-            merger_.stop();
+            auto done = barrier(command, machine_.tool_change().seconds, MotionKind::tool_change);
             tool_ = c.number;
-            return barrier(command, machine_.tool_change().seconds, MotionKind::tool_change);
+            return done;
           },
           [&](const canon::SetToolNumber& c) {
-            merger_.stop();
+            auto done = barrier(command);
             tool_ = c.number;
-            return barrier(command);
+            return done;
           },
           [&](const canon::Coolant&) { return barrier(command); },
           [&](const canon::Override&) { return still(command); },

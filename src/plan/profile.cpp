@@ -1,4 +1,4 @@
-// Evaluation of s(t): a search for the knot, then its polynomial.
+// Evaluation of s(t): a search for the knot, then its polynomial; and of the spindle with it.
 #include <algorithm>
 
 #include "plan/plan.h"
@@ -20,6 +20,18 @@ SpeedProfile::State SpeedProfile::at(double t) const {
   const double s = k.s + tau * (k.v + tau * (k.a / 2 + tau * k.j / 6));
   // Rounding must not carry s past the next knot: s never runs backwards.
   return {std::clamp(s, k.s, after->s), k.v + tau * (k.a + tau * k.j / 2), k.a + tau * k.j};
+}
+
+double spindle_turns(const Segment& segment, double t) {
+  if (segment.sync && segment.sync->spindle_follows)
+    return segment.sync->sense * segment.profile.at(t).s / segment.sync->pitch;
+  return segment.spindle_rpm / 60 * t;
+}
+
+double spindle_rpm(const Segment& segment, double t) {
+  if (segment.sync && segment.sync->spindle_follows)
+    return segment.sync->sense * segment.profile.at(t).v / segment.sync->pitch * 60;
+  return segment.spindle_rpm;
 }
 
 }  // namespace aircut::plan

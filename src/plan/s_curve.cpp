@@ -14,7 +14,16 @@
 namespace aircut::plan {
 
 SpeedProfile s_curve(double length, const StraightLimits& limits) {
-  const double a = limits.a, j = limits.j, knee = a * a / j;
+  const double a = limits.a, j = limits.j;
+  if (std::isinf(j)) {
+    const double v = std::min(limits.v, std::sqrt(a * length)), ramp = v / a;
+    const double cruise = length / v - ramp;
+    return {{{0, 0, 0, a, 0},
+             {ramp, v * ramp / 2, v, 0, 0},
+             {ramp + cruise, length - v * ramp / 2, v, -a, 0},
+             {2 * ramp + cruise, length, 0, 0, 0}}};
+  }
+  const double knee = a * a / j;
   double v = std::cbrt(length * length * j / 4);
   if (v > knee) v = (std::sqrt(knee * knee + 4 * a * length) - knee) / 2;
   v = std::min(v, limits.v);

@@ -6,7 +6,7 @@
 namespace aircut::plan {
 
 struct StraightLimits {
-  double v, a, j;  ///< all above 0
+  double v, a, j;  ///< all above 0; j may be infinite
 };
 
 /// Up to seven phases of constant jerk; the last knot is the end. Closed form.

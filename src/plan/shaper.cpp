@@ -136,6 +136,53 @@ void Shaper::stop() {
   at_rest_ = true;
 }
 
+std::optional<Shaper::StraightRun> Shaper::straight_run(const Line& line,
+                                                        const AxisValues& tool_offset) {
+  if (failed_) return std::nullopt;
+  if (find_reach_limit(machine_.kinematics(), line, tool_offset, joints_, scratch_))
+    return std::nullopt;
+  const auto grid = make_grid(machine_.kinematics(), line, metric_of(line), infinity, tool_offset,
+                              limits_, joints_);
+  if (!grid) return std::nullopt;
+  StraightRun out;
+  out.end = grid->q_end;
+  const machine::JointVector rate = limits_.j.cwiseQuotient(limits_.a);
+  const auto limit = [&](const double* alpha) {
+    double a = infinity, j = infinity;
+    for (Eigen::Index k = 0; k < rate.size(); ++k) {
+      if (alpha[k] == 0) continue;
+      a = std::min(a, 1 / std::abs(alpha[k]));
+      j = std::min(j, rate[k] / std::abs(alpha[k]));
+    }
+    out.limits.a = std::min(out.limits.a, a);
+    out.limits.j = std::min(out.limits.j, j);
+  };
+  out.limits = {std::sqrt(*std::min_element(grid->cap.begin(), grid->cap.end())), infinity,
+                infinity};
+  if (grid->uniform) {
+    const machine::JointVector alpha = grid->dq_start.cwiseQuotient(limits_.a);
+    limit(alpha.data());
+    return out;
+  }
+  // Where the joints bend along the line, half of each limit is left to the bend.
+  double bend = 0;
+  for (std::size_t k = 0; k < grid->nodes(); ++k) {
+    limit(grid->alpha(k));
+    for (int j = 0; j < grid->joints; ++j) bend = std::max(bend, std::abs(grid->beta(k)[j]));
+  }
+  out.limits.a /= 2;
+  out.limits.j /= 2;
+  out.limits.v = std::min(out.limits.v, std::sqrt(0.5 / std::max(bend, 1e-300)));
+  return out;
+}
+
+void Shaper::push_planned(Segment segment, const machine::JointVector& end) {
+  if (failed_) return;
+  joints_ = end;
+  at_rest_ = true;
+  chain_.push_still(std::move(segment));
+}
+
 // The rest of the pending move up to end_, and the segments behind it.
 void Shaper::finish_pending() {
   if (!pending_) return;
@@ -164,8 +211,9 @@ void Shaper::add_blend(const Move& left, const Move& right, const CornerBlend& c
   };
   Segment in = half(left, first, true), out = half(right, second, false);
   const double left_length = length(left.segment.path);
-  in.u0 = 1 - corner.cut / left_length;
-  out.u1 = corner.cut / length(right.segment.path);
+  const auto part = [](const Move& move) { return move.segment.u1 - move.segment.u0; };
+  in.u0 = in.u1 - part(left) * corner.cut / left_length;
+  out.u1 = out.u0 + part(right) * corner.cut / length(right.segment.path);
   const double feed = left.feed;
   end_ = left_length - corner.cut;
   std::vector<Segment> after = std::move(after_);
@@ -186,8 +234,9 @@ void Shaper::add_range(Move& move, double begin, double end) {
     out.command = std::move(command);
     if (to - from > 1e-12 * whole) {
       out.path = sub_path(move.segment.path, from, to);
-      out.u0 = (from - low) / (high - low);
-      out.u1 = (to - low) / (high - low);
+      const double u0 = move.segment.u0, part = move.segment.u1 - u0;
+      out.u0 = u0 + part * (from - low) / (high - low);
+      out.u1 = u0 + part * (to - low) / (high - low);
       add(std::move(out), move.metric, move.feed);
     } else if (!move.parts.empty()) {
       // A line that a blend took off whole still reaches the listeners.

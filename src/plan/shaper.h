@@ -3,6 +3,7 @@
 
 #include "plan/blend.h"
 #include "plan/chain.h"
+#include "plan/s_curve.h"
 
 namespace aircut::plan {
 
@@ -36,6 +37,20 @@ class Shaper {
   void stop();
   std::optional<Segment> take() { return chain_.take(); }
 
+  /// What the joints allow along a straight way that starts where the motion rests.
+  struct StraightRun {
+    StraightLimits limits{};
+    machine::JointVector end;  ///< joints there
+  };
+  /// Nothing where the way can't be gone to its end.
+  std::optional<StraightRun> straight_run(const Line& line, const AxisValues& tool_offset);
+  /// A segment from rest to rest that has its time law; `end`: the joints behind it.
+  void push_planned(Segment segment, const machine::JointVector& end);
+  /// Revolutions of the spindle; after stop() those at the end of everything.
+  double spindle_turns() const { return chain_.spindle_turns(); }
+
+  /// At the end of everything, once the motion rests.
+  const machine::JointVector& joints() const { return joints_; }
   /// After a failure nothing comes in any more.
   bool failed() const { return failed_; }
 

@@ -59,6 +59,7 @@ std::string underline_remark(const sim::Finding& f) {
       return "from " + fixed(f.u_first * 100, 1) + " % of this move on, t = " + seconds(f.t_first);
     case sim::Kind::self_overlap:
     case sim::Kind::tool_change_collision:
+    case sim::Kind::sync_limit:
     case sim::Kind::tool_missing:
     case sim::Kind::not_executed:
     case sim::Kind::not_checked:

@@ -22,6 +22,7 @@ constexpr KindRow kinds[] = {
     {Kind::overtravel, "overtravel", Severity::error},
     {Kind::unreachable, "unreachable", Severity::error},
     {Kind::singular, "singular", Severity::error},
+    {Kind::sync_limit, "sync_limit", Severity::error},
     {Kind::tool_missing, "tool_missing", Severity::error},
     {Kind::not_executed, "not_executed", Severity::warning},
     {Kind::not_checked, "not_checked", Severity::warning},

@@ -50,6 +50,14 @@ const std::vector<KindText>& finding_kinds() {
        "program was not checked."},
       {"singular", "the machine can't pass a pose at any speed",
        "At a singular pose a joint would need an unlimited speed. Planning ends there."},
+      {"sync_limit", "an axis can't follow the spindle",
+       "In threading and rigid tapping (G33, G33.1) the axis must go its pitch per revolution. "
+       "Here "
+       "the\n"
+       "spindle asks for more than the axis can do, or the way is too short for the axis to start "
+       "and\n"
+       "catch up, so the thread is not what the program says.\n"
+       "Remedy: a lower S, or a longer way before the thread begins."},
       {"tool_missing", "a tool is changed in that is not in the tool table",
        "The tool number of M6 or M61 has no entry in the tool file, so its shape and length are "
        "unknown.\n"

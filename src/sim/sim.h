@@ -66,6 +66,7 @@ enum class Kind : unsigned char {
   overtravel,
   unreachable,
   singular,
+  sync_limit,
   tool_missing,
   not_executed,
   not_checked,

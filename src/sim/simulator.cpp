@@ -68,6 +68,21 @@ void Simulator::step(const plan::Segment& segment) {
     f.makes_unknown = true;
     findings_.add(f);
   }
+  if (std::holds_alternative<canon::Probe>(segment.command.action)) {
+    Finding f = finding_at(Kind::not_checked, step, segment.t_end());
+    f.message =
+        "the probing move has no model of what it touches here: it runs to its end and trips "
+        "nothing";
+    f.remedy = "what follows was checked for that case only";
+    f.makes_unknown = true;
+    findings_.add(f);
+  }
+  if (!segment.sync_problem.empty()) {
+    Finding f = finding_at(Kind::sync_limit, step, segment.t_start);
+    f.message = segment.sync_problem;
+    f.remedy = "use a lower spindle speed, or begin farther away";
+    findings_.add(f);
+  }
   if (const auto* code = std::get_if<canon::UserCode>(&segment.command.action))
     user_code(step, *code);
 }

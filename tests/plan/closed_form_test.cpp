@@ -132,16 +132,13 @@ TEST(Commands, AllReachTheListenersInOrderWithTheirTime) {
 
 TEST(Commands, WithoutAModelAreErrorsAndNeverSkipped) {
   const auto machine = mill();
-  for (const canon::Action& action :
-       {canon::Action{canon::SyncFeed{xyz(0, 0, -5), 1, false, 1, 0}},
-        canon::Action{canon::Probe{xyz(0, 0, -5), false, true}},
-        canon::Action{canon::SplineFeed{{{0, 0, 1}, {5, 5, 1}}, 2}}}) {
-    Program program;
-    program.feed(10).add(action);
-    const Planned planned = plan_program(*machine, zeros(*machine), program);
-    ASSERT_EQ(planned.errors.size(), 1u);
-    EXPECT_TRUE(planned.errors[0].starts_with("unsupported_code")) << planned.errors[0];
-  }
+  Program program;
+  program.add(canon::SetSpindleMode{0, 2000}).add(canon::SetSpindleSpeed{0, 100});
+  program.add(canon::TurnSpindle{0, canon::SpindleTurn::clockwise, true});
+  program.add(canon::SyncFeed{xyz(0, 0, -5), 1, false, 1, 0});
+  const Planned planned = plan_program(*machine, zeros(*machine), program);
+  ASSERT_EQ(planned.errors.size(), 1u);
+  EXPECT_TRUE(planned.errors[0].starts_with("unsupported_code")) << planned.errors[0];
 }
 
 TEST(Feed, MustBeThere) {
