@@ -156,6 +156,7 @@ class Samples {
     out.push_back(finding(Kind::tool_change_collision, 2, "T4/cutter is inside `vise`"));
     out.push_back(finding(Kind::unreachable, 5, "no joints for this point: rod 1 is too short"));
     out.push_back(finding(Kind::singular, 5, "joint C would need an unlimited speed"));
+    out.push_back(finding(Kind::sync_limit, 5, "the way is too short to catch up"));
     out.push_back(finding(Kind::tool_missing, 2, "T4 is not in the tool table"));
     out.push_back(finding(Kind::not_checked, 2, "T4 has no geometry"));
     out.back().makes_unknown = true;
