@@ -95,8 +95,8 @@ void read_setting(ProgramFile& program, const std::string& setting) {
   }
 }
 
-void read_remarks(ProgramFile& program, const std::string& line, std::uint32_t number,
-                  std::uint32_t& last_expecting) {
+void read_remarks(ProgramFile& program, const std::string& line, std::uint64_t number,
+                  std::uint64_t& last_expecting) {
   if (const auto expected = remark(line, "expect")) {
     last_expecting = number;
     const std::string list = without_remarks(*expected);
@@ -145,7 +145,7 @@ ProgramFile read_program_file(const std::string& name, const std::string& text,
   program.name = name;
   program.text = text;
   program.options = reference_options();
-  std::uint32_t number = 0, last_expecting = 0;
+  std::uint64_t number = 0, last_expecting = 0;
   for (const std::string& line : split(text, "\n")) {
     ++number;
     if (const auto at = line.find(";! "); at != std::string::npos)

@@ -21,7 +21,7 @@ struct Expectation {
 struct ProgramFile {
   std::string name;
   std::string text;
-  std::map<std::uint32_t, Expectation> lines;  ///< by line number; 0: the file as a whole
+  std::map<std::uint64_t, Expectation> lines;  ///< by line number; 0: the file as a whole
 
   // `;! key value` lines.
   interp::Options options;
@@ -45,7 +45,7 @@ std::vector<ProgramFile> read_program_folder(const std::string& folder);
 /// What a run gave.
 struct Outcome {
   struct Found {
-    std::uint32_t line = 0;  ///< 0 when the place is in another file or nowhere
+    std::uint64_t line = 0;  ///< 0 when the place is in another file or nowhere
     std::string kind, text;
     Severity severity = Severity::error;
   };

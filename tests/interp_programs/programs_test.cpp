@@ -35,8 +35,8 @@ bool is_remark(const std::string& text) {
 }
 
 /// What came out, by line of the program.
-std::map<std::uint32_t, Expectation> by_line(const Outcome& outcome) {
-  std::map<std::uint32_t, Expectation> lines;
+std::map<std::uint64_t, Expectation> by_line(const Outcome& outcome) {
+  std::map<std::uint64_t, Expectation> lines;
   for (const canon::Command& command : outcome.commands) {
     if (command.block == 0 || command.span.line == 0) continue;
     std::string said = canon::to_text(command.action);
@@ -69,12 +69,12 @@ int compare(const ProgramFile& program) {
   EXPECT_EQ(outcome.stopped_by_limit,
             std::any_of(outcome.found.begin(), outcome.found.end(), is_limit))
       << program.name;
-  std::map<std::uint32_t, Expectation> got = by_line(outcome);
-  std::set<std::uint32_t> numbers;
+  std::map<std::uint64_t, Expectation> got = by_line(outcome);
+  std::set<std::uint64_t> numbers;
   for (const auto& [number, line] : program.lines) numbers.insert(number);
   for (const auto& [number, line] : got) numbers.insert(number);
   int said = 0;
-  for (const std::uint32_t number : numbers) {
+  for (const std::uint64_t number : numbers) {
     const std::string place = program.name + ".ngc:" + std::to_string(number);
     const auto found = program.lines.find(number);
     const Expectation expected = found == program.lines.end() ? Expectation() : found->second;

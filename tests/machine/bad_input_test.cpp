@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Said {
-  std::uint32_t line = 0;
+  std::uint64_t line = 0;
   std::size_t column = 0;
   std::string kind;
   std::string message;  // of an expectation: a part of it
@@ -31,7 +31,7 @@ std::string text_of(const Said& said) {
 std::vector<Said> expectations(const std::string& file) {
   std::vector<Said> out;
   std::ifstream in(file);
-  std::uint32_t number = 0;
+  std::uint64_t number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
     const std::string mark = "# error ";

@@ -160,7 +160,7 @@ TEST_F(Peer, RefusesTheSameLines) {
       ProgramFile one = program;
       one.text.clear();
       std::istringstream in(program.text);
-      std::uint32_t number = 0;
+      std::uint64_t number = 0;
       for (std::string line; std::getline(in, line);) {
         const auto found = program.lines.find(++number);
         const bool refused = found != program.lines.end() && !found->second.errors.empty();

@@ -174,10 +174,10 @@ bool ends_where_it_stands(const std::string& kind) {
 }
 
 /// Line `number` without blanks around it, or nothing for line 0.
-std::string line_of(const std::string& text, std::uint32_t number) {
+std::string line_of(const std::string& text, std::uint64_t number) {
   std::istringstream in(text);
   std::string line;
-  for (std::uint32_t i = 0; i < number; ++i) std::getline(in, line);
+  for (std::uint64_t i = 0; i < number; ++i) std::getline(in, line);
   const auto first = line.find_first_not_of(" \t");
   return first == std::string::npos ? std::string()
                                     : line.substr(first, line.find_last_not_of(" \t") - first + 1);

@@ -182,7 +182,7 @@ TEST(LookAhead, HandsOutSegmentsLongBeforeTheEnd) {
   const auto machine = mill();
   const Program program = zigzag(4000, 0.5, 0.05);
   Planner planner(*machine, zeros(*machine), {});
-  std::uint32_t out = 0, most = 0;
+  std::uint64_t out = 0, most = 0;
   for (const canon::Command& command : program.commands()) {
     ASSERT_TRUE(planner.push(command));
     while (auto segment = planner.take()) out = segment->command.block;
