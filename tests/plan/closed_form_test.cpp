@@ -105,7 +105,7 @@ TEST(Commands, AllReachTheListenersInOrderWithTheirTime) {
   program.add(canon::Coolant{canon::Coolant::Kind::flood, true}).dwell(2);
   program.rapid(xyz(20, 0, -30)).add(canon::ProgramEnd{});
   const Planned planned = plan_program(*machine, zeros(*machine), program);
-  std::uint32_t block = 0;
+  std::uint64_t block = 0;
   double t = 0;
   for (const Segment& segment : planned.segments) {
     EXPECT_GE(segment.command.block, block);

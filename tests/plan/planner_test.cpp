@@ -275,7 +275,7 @@ TEST(Merge, ReplacesLinesByTheirChordAndKeepsTheirNames) {
   for (int i = 1; i <= 50; ++i) program.line(xyz(0.5 * i, i % 2 ? 0.004 : 0, 0));
   const Planned planned = plan_program(*machine, zeros(*machine), program);
   EXPECT_NEAR(planned.time(), 25.0 / 50 + 0.05, 1e-3);
-  std::vector<std::uint32_t> blocks;
+  std::vector<std::uint64_t> blocks;
   for (const Segment& segment : planned.segments)
     if (segment.merged) blocks.push_back(segment.command.block);
   ASSERT_EQ(blocks.size(), 50u);
