@@ -83,7 +83,7 @@ class ProgramMaker : private Chance {
   bool changes_unit_ = false;  // may switch to inches
   bool has_tool_ = false;      // one was put into the spindle
   bool knows_tool_ = true;     // no M61 so far
-  int plane_ = 0;  // 0 XY, 1 ZX, 2 YZ
+  int plane_ = 0;              // 0 XY, 1 ZX, 2 YZ
   bool inverse_time_ = false;
   bool percent_ = false;
 };
