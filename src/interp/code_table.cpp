@@ -92,8 +92,8 @@ constexpr CodeRule rows[] = {
     {'G', 930, G::feed_mode,     P::feed_mode,     none,   "",      feed_mode},
     {'G', 940, G::feed_mode,     P::feed_mode,     none,   "",      feed_mode},
     {'G', 950, G::feed_mode,     P::feed_mode,     none,   "",      feed_mode},
-    {'G', 960, G::spindle_mode,  P::spindle_mode,  none,   "D$",    spindle_mode},
-    {'G', 970, G::spindle_mode,  P::spindle_mode,  none,   "$",     spindle_mode},
+    {'G', 960, G::spindle_mode,  P::spindle_mode,  none,   "D",     spindle_mode},
+    {'G', 970, G::spindle_mode,  P::spindle_mode,  none,   "",      spindle_mode},
     {'G', 980, G::retract,       P::retract,       none,   "",      retract_mode},
     {'G', 990, G::retract,       P::retract,       none,   "",      retract_mode},
     // for one line

@@ -155,7 +155,8 @@ void Compensator::move(BlockRun& run, const PlannedMove& planned) {
   const bool is_arc = planned.kind == PlannedMove::Kind::arc;
   if (!state.comp.entered) {
     // On Fanuc the first move in the plane begins it.
-    if (is_fanuc(run) && !is_arc && norm(to - point_of(state, state.tip)) < same_point)
+    const bool any_length = is_fanuc(run) || state.comp.radius < same_point;
+    if (any_length && !is_arc && norm(to - point_of(state, state.tip)) < same_point)
       return plain(run, planned);
     const Point from = point_of(state, state.tip);
     auto path = entry_path(run, planned, from, to);

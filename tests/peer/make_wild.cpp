@@ -26,14 +26,14 @@ std::string ProgramMaker::wild_words(const std::string& letters) {
       case 'D':
       case 'T':
       case 'E':
-        words += one_in(5) ? decimal(-1, 3) : std::to_string(below(4));
+        words += one_in(5) ? decimal(0, 3) : std::to_string(below(4));
         break;
       case 'F':
       case 'S':
         words += one_in(8) ? "-1" : std::to_string(below(200));
         break;
       case '$':
-        words += pick({"0", "0", "0", "-1", "1"});
+        words += pick({"0", "0", "1"});
         break;
       default:
         words += decimal(-9, 9);
@@ -63,7 +63,6 @@ void ProgramMaker::wild() {
                                    {"G10 L1", "pXZRIJq"},
                                    {"G10 L10", "pXZR"},
                                    {"G10 L11", "pXZ"},
-                                   {"G10 L0", "pX"},
                                    {"G17", "XY"},
                                    {"G18", "Z"},
                                    {"G19", "X"},
@@ -75,10 +74,6 @@ void ProgramMaker::wild() {
                                    {"G30.1", "P"},
                                    {"G33", "XZKF$"},
                                    {"G33.1", "XZKF$"},
-                                   {"G38.2", "XZF"},
-                                   {"G38.3", "XYZF"},
-                                   {"G38.4", "ZF"},
-                                   {"G38.5", "AF"},
                                    {"G40", "XD"},
                                    {"G41", "DX"},
                                    {"G42", "DXL"},
@@ -135,24 +130,19 @@ void ProgramMaker::wild() {
                                    {"M19", "RPQ$"},
                                    {"M48", "P"},
                                    {"M49", ""},
-                                   {"M50", "P"},
-                                   {"M51", "P"},
-                                   {"M52", "P"},
-                                   {"M53", "P"},
+                                   {"M50", "p"},
+                                   {"M51", "p"},
+                                   {"M52", "p"},
+                                   {"M53", "p"},
                                    {"M60", ""},
-                                   {"M61", "QX"},
-                                   {"M62", "pQ"},
+                                   {"M61", "qX"},
+                                   {"M62", "pq"},
                                    {"M63", "p"},
                                    {"M64", "p"},
                                    {"M65", "pe"},
                                    {"M66", "peLQ"},
                                    {"M67", "eQP"},
                                    {"M68", "eQ"},
-                                   {"M70", "P"},
-                                   {"M71", ""},
-                                   {"M72", ""},
-                                   {"M73", "X"},
-
                                    {"", "XYZABCIJKLPQRDEFHST$@^"},
                                    {"G0", "@^Z"},
                                    {"G1", "@^XF"},
@@ -282,7 +272,7 @@ void ProgramMaker::hostile() {
             "#1=exists[1]",
             "#1=exists[#1]",
             "#<a b = 3",
-            "#<>=3",
+
             "#<_x>=1",
             "#1.5=2",
             "#[1.5]=2",
@@ -426,8 +416,6 @@ void ProgramMaker::hostile() {
             "G76 P1 Z-10 I0 J0.2 K1",
             "G76 P1 Z-10 I-1 J0 K1",
             "G76 P1 Z-10 I-1 J2 K1",
-
-            "G76 P1 Z-10 I-1 J0.2 K1 L4",
 
             "G76 P1 Z-10 I-1 J0.2 K1 H1.5",
 

@@ -120,7 +120,8 @@ void path_mode(const CodeRule& rule, BlockRun& run) {
     state.path_mode = canon::PathMode::continuous;
     // Nothing or less than nothing means no limit.
     state.path_tolerance = std::max(0.0, run.number_or('P', 0));
-    state.naive_tolerance = std::max(0.0, run.number_or('Q', state.path_tolerance));
+    const double q = run.number_or('Q', -1);
+    state.naive_tolerance = q >= 0 ? q : state.path_tolerance;
   }
   emit_path_mode(run);
   if (state.path_mode == canon::PathMode::continuous) emit_naive_tolerance(run);

@@ -218,9 +218,8 @@ void rigid_tap(const CodeRule& rule, BlockRun& run) {
 
 void probe(const CodeRule& rule, BlockRun& run) {
   if (refuse_with_comp(run, rule, true) || !has_axes(run, rule)) return;
-  if (run.state.feed_mode == canon::FeedMode::per_revolution ||
-      run.state.feed_mode == canon::FeedMode::inverse_time)
-    return run.error("probe_error", rule, "probing needs feed per minute; give G94 and F before");
+  if (run.state.feed_mode == canon::FeedMode::per_revolution)
+    return run.error("probe_error", rule, "probing can't be done with G95; give G94 and F before");
   if (!feed_is_set(run, rule)) return;
   const auto end = target_of(run);
   if (!end) return;

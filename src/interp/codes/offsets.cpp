@@ -136,7 +136,8 @@ void set_tool_data(const CodeRule& rule, BlockRun& run, int kind) {
   }
   // The controlled point must read the words with the new offset: tip = point − offset.
   const AxisValues point = run.state.tip + run.state.length_offset;
-  AxisValues wanted = to_program(frame, run.state.tip);
+  // Axes without a word keep what they would read with the old one.
+  AxisValues wanted = to_program(frame, point - tool->offset);
   for (const Axis axis : all_axes)
     if (const auto value = run.axis(axis)) wanted[axis] = *value;
   const AxisValues tip = to_tip(frame, wanted);
@@ -244,6 +245,8 @@ void use_length_offset(BlockRun& run, const AxisValues& offset, int tool) {
 void length_offset(const CodeRule& rule, BlockRun& run) {
   if (refuse_with_comp(run, rule)) return;
   if (rule.code == 490) return use_length_offset(run, {});
+  if (rule.code == 432 && run.has('H') && run.has_axis_words())
+    return run.error("axis_conflict", rule, "G43.2 takes H or axis words, not both");
   AxisValues offset = run.state.length_offset;
   const bool by_axes = rule.code == 431 || (rule.code == 432 && !run.has('H'));
   if (by_axes) {

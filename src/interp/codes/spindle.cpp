@@ -91,11 +91,12 @@ void spindle_orient(const CodeRule& rule, BlockRun& run) {
   }
   if (run.has('Q') && *run.number('Q') <= 0)
     return run.error("word_value", 'Q', "Q, the longest wait of M19, must be above 0 seconds");
-  if (!run.has('R'))
-    return run.warning("word_ignored", run.place(rule),
-                       "M19 without R does not move the spindle; give R, the angle");
   run.state.spindles[static_cast<std::size_t>(*spindle)].turn = canon::SpindleTurn::stop;
-  run.emit(canon::OrientSpindle{*spindle, *run.number('R') * radian_per_degree, direction});
+  if (!run.has('R') && !run.has('P'))
+    return run.warning("word_ignored", run.place(rule),
+                       "M19 without R and P does not move the spindle; give R, the angle");
+  run.emit(canon::OrientSpindle{*spindle, run.number_or('R', 0) * radian_per_degree, direction});
+});
 }
 
 }  // namespace aircut::interp
