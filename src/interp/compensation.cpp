@@ -32,6 +32,7 @@ namespace {
 
 constexpr double corner_angle = 0.05;  // rad, of the reference
 constexpr double same_point = 1e-9;    // mm
+constexpr double touching = 1e-9;      // mm², of circles and lines that touch but for rounding
 
 bool is_fanuc(const BlockRun& run) { return run.session.table.dialect().macro_b; }
 
@@ -411,10 +412,10 @@ std::vector<Compensator::Point> Compensator::intersections(const Path& first,
         (length * length + first.radius * first.radius - second.radius * second.radius) /
         (2 * length);
     const double square = first.radius * first.radius - along * along;
-    if (square < 0) return {};
+    if (square < -touching) return {};
     const Point e = (1 / length) * d;
     const Point foot = first.centre + along * e;
-    const double h = std::sqrt(square);
+    const double h = std::sqrt(std::max(0.0, square));
     return {foot + h * Point{-e.b, e.a}, foot - h * Point{-e.b, e.a}};
   }
   const Path& arc = first.is_arc ? first : second;
@@ -423,9 +424,9 @@ std::vector<Compensator::Point> Compensator::intersections(const Path& first,
   const Point along{normal.b, -normal.a};
   const double distance = dot(arc.centre - on_line, normal);
   const double square = arc.radius * arc.radius - distance * distance;
-  if (square < 0) return {};
+  if (square < -touching) return {};
   const Point foot = arc.centre - distance * normal;
-  const double h = std::sqrt(square);
+  const double h = std::sqrt(std::max(0.0, square));
   return {foot + h * along, foot - h * along};
 }
 

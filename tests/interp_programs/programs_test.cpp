@@ -2,11 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <set>
 
+#include "interp/code_table.h"
 #include "interp_programs/program_file.h"
 
 namespace aircut::test {
@@ -155,44 +155,49 @@ TEST(Programs, ProvokeEveryKindOfError) {
     EXPECT_TRUE(known.contains(kind)) << kind << " is not in the table of kinds";
 }
 
-/// The words of a program without its comments, in upper case and without blanks around them.
-std::set<std::string> codes_in(const std::string& text) {
-  std::set<std::string> codes;
-  bool comment = false;
-  std::string word;
-  const auto finish = [&] {
-    while (word.size() > 2 && word[1] == '0') word.erase(1, 1);
-    if (word.size() > 1) codes.insert(word);
-    word.clear();
-  };
-  for (const char c : text + "\n") {
-    if (c == ';' || c == '(') comment = true;
-    const char upper = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    const bool goes_on = !word.empty() && ((upper >= '0' && upper <= '9') || upper == '.');
-    if (!goes_on) finish();
-    if (!comment && (goes_on || upper == 'G' || upper == 'M')) word += upper;
-    if (c == ')' || c == '\n') comment = false;
+// A row that is added without a program that executes it fails here.
+TEST(Programs, ExecuteEveryRowOfTheCodeTable) {
+  std::map<std::string, std::uint64_t> executed;
+  for (const ProgramFile& program : read_program_folder(folder))
+    for (const auto& [code, count] : run_program(program, true, folder + "/subs").codes)
+      executed[code] += count;
+  for (const interp::CodeRule* rule : interp::CodeTable().rules()) {
+    if (!rule->handler) continue;  // an `unsupported_code` error
+    EXPECT_GT(executed[interp::name_of(*rule)], 0u) << name_of(*rule) << " has no program";
   }
-  return codes;
 }
 
-TEST(Programs, UseEveryCodeOfTheLanguage) {
-  std::set<std::string> used;
-  for (const ProgramFile& program : read_program_folder(folder)) used.merge(codes_in(program.text));
-  const char* const codes[] = {
-      "G0",    "G1",    "G2",    "G3",    "G4",    "G5",    "G5.1",  "G5.2",  "G5.3",  "G7",
-      "G8",    "G10",   "G17",   "G17.1", "G18",   "G18.1", "G19",   "G19.1", "G20",   "G21",
-      "G28",   "G28.1", "G30",   "G30.1", "G33",   "G33.1", "G38.2", "G38.3", "G38.4", "G38.5",
-      "G40",   "G41",   "G41.1", "G42",   "G42.1", "G43",   "G43.1", "G43.2", "G49",   "G52",
-      "G53",   "G54",   "G55",   "G56",   "G57",   "G58",   "G59",   "G59.1", "G59.2", "G59.3",
-      "G61",   "G61.1", "G64",   "G73",   "G74",   "G76",   "G80",   "G81",   "G82",   "G83",
-      "G84",   "G85",   "G86",   "G87",   "G89",   "G90",   "G90.1", "G91",   "G91.1", "G92",
-      "G92.1", "G92.2", "G92.3", "G93",   "G94",   "G95",   "G96",   "G97",   "G98",   "G99",
-      "M0",    "M1",    "M2",    "M3",    "M4",    "M5",    "M6",    "M7",    "M8",    "M9",
-      "M19",   "M30",   "M48",   "M49",   "M50",   "M51",   "M52",   "M53",   "M60",   "M61",
-      "M62",   "M63",   "M64",   "M65",   "M66",   "M67",   "M68",   "M70",   "M71",   "M72",
-      "M73",   "M98",   "M99",   "M100"};
-  for (const char* code : codes) EXPECT_TRUE(used.contains(code)) << code << " has no program";
+/// Programs that never end by themselves.
+TEST(Programs, ThatNeverEndAreStopped) {
+  const std::map<std::string, std::string> programs = {
+      {"o1 do\n#1=[#1+1]\no1 while [1]\nM2\n", "loop_limit"},
+      {"o1 while [#<_x> GE 0]\nG91 G0 X1\no1 endwhile\nM2\n", "loop_limit"},
+      {"o1 repeat [9999999999*9999999999]\no1 endrepeat\nM2\n", "loop_limit"},
+      {"o1 repeat [1000000000000000000]\nG0 X1\no1 endrepeat\nM2\n", "loop_limit"},
+      {"o1 while [1]\no2 while [1]\no2 endwhile\no1 endwhile\nM2\n", "loop_limit"},
+      {"o1 sub\no1 call\no1 endsub\no1 call\nM2\n", "call_depth"},
+      {"o1 sub\no2 call\no1 endsub\no2 sub\no1 call\no2 endsub\no1 call\nM2\n", "call_depth"},
+      {"o<again> call\nM2\n", "call_depth"},
+      {"M98 P1\nM2\nO1\nM98 P1\nM99\n", "call_depth"},
+      {"M98 P1 L999999999\nM2\nO1\n#1=[#1+1]\nM99\n", "limit_reached"},
+      {"M98 P1 L999999999\nM2\nO1\nG0 X1\nM99\n", "limit_reached"},
+      {"o1 do\no1 continue\no1 while [1]\nM2\n", "loop_limit"},
+      {"o1 while [1]\no1 continue\no1 endwhile\nM2\n", "loop_limit"}};
+  for (const auto& [text, kind] : programs) {
+    ProgramFile program = read_program_file("endless", text, "T1 P1\n");
+    program.options.limits.max_blocks = 100'000;
+    program.options.limits.max_idle_blocks = 50'000;
+    program.options.limits.max_repeat = 60'000;
+    const Outcome outcome = run_program(program, true, folder + "/subs");
+    ASSERT_EQ(outcome.found.size(), 1u) << text;
+    EXPECT_EQ(outcome.found[0].kind, kind) << text << outcome.found[0].text;
+    EXPECT_TRUE(outcome.stopped_by_limit) << text;
+    EXPECT_FALSE(outcome.found[0].text.starts_with("error")) << "no place: " << text;
+    // A loop is told with what its condition sees.
+    if (text.find("#<_x>") != std::string::npos) {
+      EXPECT_NE(outcome.found[0].text.find("#<_x> ="), std::string::npos) << outcome.found[0].text;
+    }
+  }
 }
 
 TEST(Programs, GiveTheSameTwice) {

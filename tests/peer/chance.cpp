@@ -46,7 +46,7 @@ std::string Chance::value() {
     case 3:
       return "#<_" + pick({"metric", "feed", "x", "call_level", "global", "plane"}) + ">";
     case 4:
-      return "exists[#<" + pick({"nobody", "_global", "_x", "a"}) + ">]";
+      return "exists[#<" + pick({"nobody", "_x", "_nobody"}) + ">]";
     default:
       return decimal(-5, 9);
   }

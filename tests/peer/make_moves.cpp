@@ -85,6 +85,7 @@ void ProgramMaker::polar() {
   if (one_in(4))
     add(pick({"G2", "G3"}) + " @10 ^" + decimal(10, 80) + " R" + decimal(25, 60) + feed());
   if (one_in(4) && !inverse_time_) {
+    if (changes_unit_) add("G0 Z" + decimal(2, 5));
     add("G81 @" + decimal(5, 9) + " ^" + decimal(0, 90) + " Z-2 R1");
     add("^" + decimal(0, 360));
     add("G80");
@@ -218,7 +219,7 @@ void ProgramMaker::probe() {
   if (inverse_time_) return;
   // The reference stops short of the end, so the point is given anew.
   add(pick({"G38.2", "G38.3", "G38.4", "G38.5"}) + axis_words(20) + pick({" F20", "", " F100"}));
-  add("G0 X" + decimal(1, 9) + " Y" + decimal(1, 9) + " Z" + decimal(1, 9) + " A0 B0 C0");
+  add("G90 G0 X" + decimal(1, 9) + " Y" + decimal(1, 9) + " Z" + decimal(1, 9) + " A0 B0 C0");
 }
 
 void ProgramMaker::lathe() {

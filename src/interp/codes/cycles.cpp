@@ -212,6 +212,8 @@ void Cycle::execute() {
     if (!l) return;
     repeats = *l;
   }
+  // The control keeps the number that the program gave; ours has come through the frames.
+  c_ = std::round(c_ * 1e9) / 1e9;
   if (!spindle_fits() || !read_words()) return;
   const CycleState& cycle = state_.cycle;
   r_ = state_.incremental ? cycle.initial + cycle.r : cycle.r;

@@ -46,7 +46,8 @@ std::optional<AxisValues> machine_target(BlockRun& run) {
   const ModalState& state = run.state;
   AxisValues tip = state.tip;
   for (const Axis axis : all_axes)
-    if (const auto value = run.axis(axis)) tip[axis] = *value - state.length_offset[axis];
+    if (const auto value = run.axis(axis))  // that of rotary axes the control leaves out
+      tip[axis] = *value - (is_rotary(axis) ? 0 : state.length_offset[axis]);
   return tip;
 }
 

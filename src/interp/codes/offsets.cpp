@@ -245,7 +245,7 @@ void use_length_offset(BlockRun& run, const AxisValues& offset, int tool) {
 void length_offset(const CodeRule& rule, BlockRun& run) {
   if (refuse_with_comp(run, rule)) return;
   if (rule.code == 490) return use_length_offset(run, {});
-  if (rule.code == 432 && run.has('H') && run.has_axis_words())
+  if (rule.code == 432 && run.has('H') && !axes_given(run).empty())
     return run.error("axis_conflict", rule, "G43.2 takes H or axis words, not both");
   AxisValues offset = run.state.length_offset;
   const bool by_axes = rule.code == 431 || (rule.code == 432 && !run.has('H'));

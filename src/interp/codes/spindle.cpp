@@ -96,7 +96,6 @@ void spindle_orient(const CodeRule& rule, BlockRun& run) {
     return run.warning("word_ignored", run.place(rule),
                        "M19 without R and P does not move the spindle; give R, the angle");
   run.emit(canon::OrientSpindle{*spindle, run.number_or('R', 0) * radian_per_degree, direction});
-});
 }
 
 }  // namespace aircut::interp
