@@ -392,6 +392,7 @@ bool Compensator::still_forward(const Path& path) const {
 // round; a joint that is almost straight lengthens it a little.
 bool Compensator::runs_back(const Path& path) const {
   if (!path.is_arc) return !still_forward(path);
+  if (norm(path.end - path.start) < same_point) return false;
   return sweep_of(path) > path.sweep + std::numbers::pi;
 }
 

@@ -73,7 +73,7 @@ std::string Chance::expression(int depth) {
     case 7:
       return pick({"2", "3", "1.5", "4", "-2"}) + "**" + pick({"0", "1", "2", "3", "-1"});
     case 8:
-      return pick({"asin", "acos"}) + "[" + pick({"0.5", "-0.25", "0.75", "0"}) + "]";
+      return pick({"asin", "acos"}) + "[" + pick({"0.1", "-0.25", "0.75"}) + "]";
     case 9:
       return "ln[1+abs[" + inner() + "]]";
     case 10:

@@ -69,10 +69,9 @@ void ProgramMaker::contour() {
     if (one_in(8)) add(pick({"G1 Z", "G0 Z", "G1 A"}) + decimal(-5, 5));
     if (one_in(12)) add(pick({"M8", "G4 P1", "F80", "(in between)", "#1=#<_x>", "S200", "G91.1"}));
     if (one_in(60))
-      add(pick(
-          {"G55",           "G0 G53 X0", "G81 X1 Z-1 R1", "M6",           "G43 H1", "G17", "G28",
-           "(DEBUG,#5420)", "#7=#5421",  "G61",           "G98",          "M62 P1", "T2",  "M70",
-           "G20",           "G92 X0",    "G10 L2 P1 X1",  "G10 L2 P3 X1", "M50 P1", "G7"}));
+      add(pick({"G55", "G0 G53 X0", "G81 X1 Z-1 R1", "M6", "G43 H1", "G17", "G28", "(DEBUG,#5420)",
+                "#7=#5421", "G61", "G98", "M62 P1", "T2", "M70", "G92 X0", "G10 L2 P1 X1",
+                "G10 L2 P3 X1", "M50 P1", "G7"}));
   }
   add("G40");
   if (one_in(6)) add("(left)");

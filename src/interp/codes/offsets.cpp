@@ -250,10 +250,11 @@ void length_offset(const CodeRule& rule, BlockRun& run) {
   AxisValues offset = run.state.length_offset;
   const bool by_axes = rule.code == 431 || (rule.code == 432 && !run.has('H'));
   if (by_axes) {
-    if (!run.has_axis_words() && rule.code == 431)
+    const bool none = axes_given(run).empty();
+    if (none && rule.code == 431)
       run.warning("word_ignored", run.place(rule),
                   "G43.1 without axis words changes nothing; give the axes of the offset");
-    else if (!run.has_axis_words())
+    else if (none)
       return run.error("axis_word_missing", rule, "G43.2 needs H or axis words");
     for (const Axis axis : all_axes)
       if (const auto value = run.axis(axis))
