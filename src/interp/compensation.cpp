@@ -385,7 +385,7 @@ double Compensator::sweep_of(const Path& arc) const {
 bool Compensator::still_forward(const Path& path) const {
   const Point way = path.end - path.start;
   if (!path.is_arc) return dot(way, path.direction) >= -same_point;
-  return sweep_of(path) <= path.sweep + 1e-6;
+  return sweep_of(path) <= path.sweep + corner_angle;
 }
 
 // True when the corners at both ends of a path have swallowed it. An arc then runs nearly once more

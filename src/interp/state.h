@@ -109,6 +109,7 @@ struct ModalState {
   bool mist = false;
   bool flood = false;
   bool feed_override = true;
+  bool thread_override = false;  ///< G76 has switched it on since, unknown to the program
   bool adaptive_feed = false;
   bool feed_hold = true;
 

@@ -207,7 +207,7 @@ void ProgramMaker::hostile() {
             "G41.1",
             "G92",
             "G52",
-            "G38.2",
+
             "X1e3",
             "G0 (a (b) c)",
             "(unclosed",
@@ -389,9 +389,9 @@ void ProgramMaker::hostile() {
             "G81 X1 Z-1 R1 A1",
             "G53 G81 X1 Z-1 R1",
             "G81 X1 Z-1 R1 G49",
-            "G38.2 X0 F0",
+
             "G93\nG1 X1",
-            "G93\nG38.2 X1 F1",
+
             "G95\nG38.2 X1 F1",
             "G28 G0 X1",
             "G92 G1 X1",

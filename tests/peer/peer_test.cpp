@@ -66,8 +66,9 @@ bool is_accepted(const Trace& own, const Trace& reference, const std::string& di
       (own_says("too short between its corners") || own_says("the move before it is too short")))
     return true;
   if (elsewhere && reference.error_text.find("without gouging") != std::string::npos) return true;
-  // A bad comment between a call and the sub is met when the call looks for the sub.
-  if (own_says("bad_comment") && reference.error_text.find("comment found") != std::string::npos)
+  // A line that can't be read, between a call and the sub: met when the call looks for the sub.
+  if (difference.starts_with("only own has") && own.error && reference.error &&
+      reference.error_text.find(own.error_line.substr(0, 200)) != std::string::npos)
     return true;
   // A corner that the tool just reaches.
   if (difference.starts_with("only the reference refuses") &&
@@ -76,6 +77,9 @@ bool is_accepted(const Trace& own, const Trace& reference, const std::string& di
   // Numbers that the reference rounds.
   if (refused && own_says("must be an integer from")) return true;
   if (refused && own_says("splines can't be used while radius compensation")) return true;
+  if (refused && own_says("G76 can't be used while radius compensation")) return true;
+  if (refused && own_says("I and J of G5.1 can't both be 0")) return true;
+  if (reference.error_text.find("spindle ($) number in M51") != std::string::npos) return true;
   // Tapping outside of G17.
   if (refused && own_says("the control moves the wrong axes")) return true;
   // Splines outside of G17; G92.1 while a contour is compensated.

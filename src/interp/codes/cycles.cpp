@@ -245,8 +245,8 @@ void Cycle::repeat(int number, int repeats) {
     a = x / unit_;
     b = y / unit_;
   }
-  // Below the level of retraction the way to the hole rises to it on the way.
-  move(true, a, b, std::max(c_, clear_), "to the hole");
+  // From R or below it the way to the hole rises to the level of retraction on the way.
+  move(true, a, b, c_ > r_ ? c_ : clear_, "to the hole");
   if (c_ > r_) rapid_to(r_, "down to R");
   body();
 }
@@ -308,7 +308,8 @@ void Cycle::tap() {
   feed(clear_, "back out");
   turn(Turn::stop);
   turn(forward);
-  if (state_.feed_override) run_.emit(canon::Override{Kind::feed, true, 0});
+  if (state_.feed_override || state_.thread_override)
+    run_.emit(canon::Override{Kind::feed, true, 0});
   if (spindle.override_on) run_.emit(canon::Override{Kind::speed, true, spindle_});
 }
 

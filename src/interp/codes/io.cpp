@@ -20,6 +20,7 @@ void set_override(BlockRun& run, canon::Override::Kind kind, bool on, int spindl
   switch (kind) {
     case canon::Override::Kind::feed:
       state.feed_override = on;
+      state.thread_override = false;
       break;
     case canon::Override::Kind::speed:
       state.spindles[static_cast<std::size_t>(spindle)].override_on = on;

@@ -4,6 +4,7 @@
 namespace aircut::interp {
 
 void program_stop(const CodeRule& rule, BlockRun& run) {
+  run.session.compensator.flush(run);  // the machine stands still: no corner is open
   if (rule.code == 60) run.emit(canon::PalletChange{});
   run.emit(canon::ProgramStop{rule.code == 1});
 }
@@ -164,10 +165,11 @@ void restore_offsets(BlockRun& run, const ModalState& saved) {
   if (state.path_mode != saved.path_mode || state.path_tolerance != saved.path_tolerance ||
       state.naive_tolerance != saved.naive_tolerance) {
     state.path_mode = saved.path_mode;
-    state.path_tolerance = saved.path_tolerance;
-    state.naive_tolerance = saved.naive_tolerance;
+    const bool continuous = saved.path_mode == canon::PathMode::continuous;
+    state.path_tolerance = continuous ? saved.path_tolerance : 0;
+    if (continuous) state.naive_tolerance = saved.naive_tolerance;
     emit_path_mode(run);
-    if (state.path_mode == canon::PathMode::continuous) emit_naive_tolerance(run);
+    if (continuous) emit_naive_tolerance(run);
   }
 }
 

@@ -147,7 +147,7 @@ void Thread::pass(double depth) {
   rapid(clear, end, "out");
   // The control switches it on even when it was off before.
   run_.emit(canon::Override{canon::Override::Kind::feed, true, 0});
-  state_.feed_override = true;
+  state_.thread_override = true;
 }
 
 void Thread::rapid(double x, double z, const char* what) {
