@@ -40,7 +40,7 @@ std::string Chance::value() {
     case 0:
       return "#" + std::to_string(1 + below(6));
     case 1:
-      return "-" + std::to_string(below(5));
+      return "-" + std::to_string(1 + below(4));
     case 2:
       return "#[1+" + std::to_string(below(3)) + "]";
     case 3:
@@ -79,7 +79,7 @@ std::string Chance::expression(int depth) {
     case 10:
       return "exp[" + pick({"0", "1", "-1", "0.5", "2"}) + "]";
     case 11:  // all levels of precedence side by side
-      return inner() + pick({" + ", "*", " - 2**", " eq ", " or "}) + value() +
+      return inner() + pick({" + ", "*", " - 2*", " eq ", " or "}) + value() +
              pick({" - ", " / 4 * ", " mod 7 - ", " gt ", " and "}) + value();
     default:
       return inner() + pick({" + ", " - ", " * "}) + inner();

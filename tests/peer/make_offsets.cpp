@@ -91,6 +91,8 @@ void ProgramMaker::tool_offset() {
       break;
     case 6:  // the stand-in forgets the rotation then too
       if (rotates_) return offset();
+      add("G49");
+      add("G0" + axis_words(9));
       add("M61 Q" + std::to_string(1 + below(4)));
       knows_tool_ = false;
       break;
