@@ -183,9 +183,10 @@ struct WaitInput {
 /// M100–M199 and remaps that are not NC: listed, never run.
 struct UserCode {
   char letter = 'M';  ///< G: data setting (G10 L50)
-  int code = 0;
+  int code = 0;       ///< -1 for remapped words without a code of M
   double p = 0, q = 0;
   bool has_p = false, has_q = false;
+  std::string remap = {};  ///< `G88.1`, `T`: a word that the set-up gives to a program of its own
 };
 
 struct ProgramStop {

@@ -256,7 +256,10 @@ struct Fields {
   void operator()(const UserCode& c) const {
     name("user_code");
     if (c.letter != 'M') o.text("letter", std::string(1, c.letter));
-    o.integer("code", c.code);
+    if (c.remap.empty())
+      o.integer("code", c.code);
+    else
+      o.text("remap", c.remap);
     if (c.has_p) o.number("p", c.p);
     if (c.has_q) o.number("q", c.q);
   }

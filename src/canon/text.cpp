@@ -162,7 +162,8 @@ struct ToText {
            (known ? modes[c.mode] : std::to_string(c.mode).c_str()) + " timeout " + tidy(c.timeout);
   }
   std::string operator()(const UserCode& c) const {
-    std::string out = std::string("user_code ") + c.letter + std::to_string(c.code);
+    std::string out =
+        "user_code " + (c.remap.empty() ? c.letter + std::to_string(c.code) : c.remap + " remap");
     if (c.has_p) out += " P" + tidy(c.p);
     if (c.has_q) out += " Q" + tidy(c.q);
     return out;

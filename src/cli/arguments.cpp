@@ -27,6 +27,10 @@ void add_color(CLI::App* app, When& color) {
 void add_program(CLI::App* app, ProgramArguments& a, std::vector<std::string>& set) {
   app->add_option("-t,--tools", a.tools, "tool table (.tbl) or tools.toml; replaces the machine's")
       ->type_name("FILE");
+  app->add_option(
+         "--ini", a.ini,
+         "set-up file of a LinuxCNC machine: its interpreter options, parameter file, tools")
+      ->type_name("FILE");
   app->add_option("--var", a.parameters, "parameter file")->type_name("FILE");
   app->add_option("--set", set, "set a parameter: '#100=5' or '#<name>=2' (repeatable)")
       ->type_name("ASSIGNMENT");

@@ -19,6 +19,7 @@ struct ProgramArguments {
   std::string program;
   std::string machine;  ///< folder, machine.toml or name
   std::string tools, setup, parameters;
+  std::string ini;  ///< set-up of a LinuxCNC machine
   std::vector<std::pair<std::string, double>> set;
   std::vector<std::string> sub_path;
   std::string dialect;  ///< linuxcnc, fanuc, haas, auto; empty: the machine's

@@ -31,6 +31,10 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
   semantics::ProgramCheck meaning({job.tools, job.machine.get()}, diagnostics, diagnostics);
   std::optional<semantics::TravelCheck> travel;
   if (job.machine && checks.limits) travel.emplace(*job.machine, job.start, diagnostics);
+  std::optional<linuxcnc::TravelCheck> axis_travel;
+  if (job.control && !job.machine && checks.limits)
+    axis_travel.emplace(job.control->travel, AxisValues{});
+  std::vector<std::string> not_run;
   std::size_t own_errors = 0;
   const auto errors_of = [&](const auto& look) {
     const std::size_t before = diagnostics.errors();
@@ -42,7 +46,9 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
     errors_of([&] {
       if (checks.semantics) meaning.see(*command);
       if (travel) travel->see(*command);
+      if (axis_travel) axis_travel->see(*command, diagnostics);
     });
+    if (!checks.semantics) note_user_code(job, *command, diagnostics, not_run);
     if (const auto* probe = std::get_if<canon::Probe>(&command->action))
       interpreter.resume({.tip = probe->end, .tripped = false});
   }
@@ -55,6 +61,7 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
   refused = diagnostics.errors() > own_errors;
   unit.blocks = interpreter.statistics().blocks;
   unit.unchecked = meaning.unchecked();
+  unit.unchecked.insert(unit.unchecked.end(), not_run.begin(), not_run.end());
   if (travel)
     unit.unchecked.insert(unit.unchecked.end(), travel->unchecked().begin(),
                           travel->unchecked().end());
@@ -78,7 +85,7 @@ int check_command(const CheckArguments& a) {
   auto rules = rules_of(a.output, job.sources);
   if (!rules) return refuse(rules.error(), a.output);
   if (std::find(a.checks.begin(), a.checks.end(), "limits") != a.checks.end() &&
-      a.program.machine.empty())
+      a.program.machine.empty() && ini_of(a.program).empty())
     return refuse(make_error("usage", "--check limits needs a machine: name one with -m"),
                   a.output);
   if (!open_inputs(job, a.program)) return refuse(job.diagnostics, a.output);
@@ -90,6 +97,8 @@ int check_command(const CheckArguments& a) {
   report.checks = {"syntax"};
   if (checks.semantics) report.checks.push_back("semantics");
   if (job.machine && checks.limits) report.checks.push_back("limits of the programmed path");
+  if (job.control && !job.machine && !job.control->travel.empty() && checks.limits)
+    report.checks.push_back("limits of the programmed path");
   report.fail_on = a.output.fail_on;
   report.folder = working_folder();
   report.diagnostics = job.diagnostics.list();
@@ -106,7 +115,8 @@ int check_command(const CheckArguments& a) {
     return print_text(report::jsonl_messages(shared, false));
   };
   bool printed = !stream || (print_text(report::jsonl_head(report)) && stream_shared(0));
-  sim::Verdict worst = sim::judge({}, {}, job.diagnostics, a.output.fail_on);
+  if (job.control) report.summary.unchecked = job.control->unchecked;
+  sim::Verdict worst = sim::judge({}, report.summary, job.diagnostics, a.output.fail_on);
   std::vector<std::unique_ptr<SourceMap>> kept;
   std::size_t messages = 0;
   for (const std::string& path : a.programs) {

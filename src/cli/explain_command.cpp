@@ -50,6 +50,8 @@ std::vector<KindText> all_kinds() {
     out.insert(out.end(), kinds.begin(), kinds.end());
   };
   add(interp::error_kinds());
+  add(ini::kinds());
+  add(linuxcnc::kinds());
   add(sim::finding_kinds());
   add(semantics::semantic_kinds());
   std::stable_sort(out.begin(), out.end(), [](const KindText& a, const KindText& b) {

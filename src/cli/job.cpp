@@ -43,12 +43,12 @@ std::string hash_of_package(const std::string& folder) {
 }
 
 // Sets the work offsets of a setup as the parameters that a control keeps them in.
-void apply_offsets(const machine::Setup& setup, interp::ParameterFile& parameters) {
+void apply_offsets(const machine::Setup& setup, double unit_mm, interp::ParameterFile& parameters) {
   for (const auto& [system, offset] : setup.offsets) {
     const int first = 5221 + 20 * (system - 1);
     for (const Axis axis : all_axes)
       parameters.values[first + static_cast<int>(index(axis))] =
-          is_rotary(axis) ? offset[axis] * 180 / M_PI : offset[axis];
+          is_rotary(axis) ? offset[axis] * 180 / M_PI : offset[axis] / unit_mm;
   }
 }
 
@@ -74,14 +74,16 @@ Expected<const SourceText*> open_program(SourceMap& sources, const std::string& 
   return path == "-" ? sources.read(stdin, path) : sources.open(path);
 }
 
-bool open_inputs(Job& job, const ProgramArguments& arguments) {
+bool open_inputs(Job& job, const ProgramArguments& arguments, std::optional<double> table_unit_mm) {
   Diagnostics& out = job.diagnostics;
   const auto fail = [&](const Diagnostic& d) {
     // A reader that returns an error may have listed it among the others already.
     if (out.errors() == 0) out.add(d);
     return false;
   };
-  if (!arguments.machine.empty()) {
+  if (!open_ini(job, arguments)) return false;
+  const double unit_mm = job.control ? job.control->unit_mm : 1.0;
+  if (!arguments.machine.empty() && arguments.machine != ini_of(arguments)) {
     const auto path = machine::find_package(arguments.machine, package_folders());
     if (!path) return fail(path.error());
     auto machine = machine::read_machine(*path, job.sources, out);
@@ -91,6 +93,7 @@ bool open_inputs(Job& job, const ProgramArguments& arguments) {
     job.start = job.machine->home();
   }
   std::string parameters = arguments.parameters;
+  if (parameters.empty() && job.control) parameters = job.control->parameter_file;
   if (parameters.empty() && job.machine) parameters = job.machine->default_parameters_;
   if (!parameters.empty()) {
     const auto text = job.sources.open(parameters);
@@ -105,27 +108,32 @@ bool open_inputs(Job& job, const ProgramArguments& arguments) {
     if (!placed) return fail(placed.error());
     job.machine = *placed;
     if (setup->start) job.start = *setup->start;
-    apply_offsets(*setup, job.parameters);
+    apply_offsets(*setup, unit_mm, job.parameters);
     if (const auto text = job.sources.open(arguments.setup))
       job.inputs.push_back({"setup", arguments.setup, sha256((*text)->content())});
   }
   std::string tools = arguments.tools;
+  if (tools.empty() && job.control) tools = job.control->tool_table;
   if (tools.empty() && job.machine) tools = job.machine->default_tools_;
   if (!tools.empty()) {
-    const auto table = tool::read_tools(tools, 1.0, job.sources, out);
+    const auto table = tool::read_tools(tools, table_unit_mm.value_or(unit_mm), job.sources, out);
     if (!table) return fail(table.error());
     job.tools = *table;
-    if (!arguments.tools.empty())
+    if (!arguments.tools.empty() || job.control)
       if (const auto text = job.sources.open(tools))
         job.inputs.push_back({"tools", tools, sha256((*text)->content())});
   }
+  if (job.control) job.tools.random_changer = job.control->random_tool_changer;
   return out.errors() == 0;
 }
 
 interp::Options interpreter_options(const Job& job, const ProgramArguments& arguments,
                                     const SourceText& program) {
   interp::Options options;
-  for (const Axis axis : all_axes) options.axes.add(axis);
+  if (job.control)
+    options = job.control->options;
+  else
+    for (const Axis axis : all_axes) options.axes.add(axis);
   if (job.machine) {
     options.axes = job.machine->kinematics().axes();
     if (const auto tip = job.machine->kinematics().forward(job.start, {})) options.start = *tip;
@@ -143,7 +151,7 @@ interp::Options interpreter_options(const Job& job, const ProgramArguments& argu
   options.block_delete = arguments.block_delete;
   options.optional_stop = arguments.optional_stop;
   options.set = arguments.set;
-  options.sub_path.push_back(folder_of(program.name()));
+  options.sub_path.insert(options.sub_path.begin(), folder_of(program.name()));
   if (job.machine) options.sub_path.push_back(job.machine->folder() + "/subs");
   for (const std::string& folder : arguments.sub_path) options.sub_path.push_back(folder);
   if (arguments.max_blocks) options.limits.max_blocks = *arguments.max_blocks;

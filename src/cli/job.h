@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/arguments.h"
+#include "linuxcnc/linuxcnc.h"
 #include "report/accept.h"
 #include "report/report.h"
 #include "sim/sim.h"
@@ -19,14 +20,25 @@ struct Job {
   std::vector<report::Input> inputs;
   Diagnostics diagnostics;                          ///< of inputs other than the program
   std::shared_ptr<const machine::Machine> machine;  ///< null when none was named
+  std::optional<linuxcnc::Setup> control;           ///< --ini
   machine::JointVector start;
   tool::ToolTable tools;
   interp::ParameterFile parameters;
 };
 
-/// Opens machine, setup, tools and parameter file. Returns false when something can't be read or is
-/// invalid; the reasons are in job.diagnostics.
-bool open_inputs(Job& job, const ProgramArguments& arguments);
+/// Opens machine, set-up, tools and parameter file. Returns false when something can't be read or
+/// is invalid; the reasons are in job.diagnostics. `table_unit_mm`: the unit of the tool table when
+/// it is not the control's.
+bool open_inputs(Job& job, const ProgramArguments& arguments,
+                 std::optional<double> table_unit_mm = {});
+
+/// The LinuxCNC set-up that was named, with --ini or as the machine; empty without.
+std::string ini_of(const ProgramArguments& arguments);
+/// Reads it into job.control; false with errors in job.diagnostics.
+bool open_ini(Job& job, const ProgramArguments& arguments);
+/// Tells a code whose program of the control was not run, once per place.
+void note_user_code(const Job& job, const canon::Command& command, Diagnostics& out,
+                    std::vector<std::string>& unchecked);
 
 /// Opens a program; `-` is standard input. Refuses what is not text (kinds `input`, `encoding`).
 Expected<const SourceText*> open_program(SourceMap& sources, const std::string& path);

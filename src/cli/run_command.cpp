@@ -133,6 +133,12 @@ int run_command(const RunArguments& a) {
   if (!program) return fail(program.error());
   job.inputs.push_back({"program", a.program.program, sha256(**program)});
   if (!open_inputs(job, a.program)) return refuse(job.diagnostics, a.output);
+  if (!job.machine)
+    return fail(
+        make_error("usage",
+                   "a set-up file has no bodies and no kinematics that could be moved: name "
+                   "a package too, -m PACKAGE --ini " +
+                       printable(ini_of(a.program))));
   if (!a.folder.empty())
     if (auto ready = prepare_folder(a.folder, a.force); !ready) return fail(ready.error());
 
@@ -205,6 +211,8 @@ int run_command(const RunArguments& a) {
                      {"resolution_mm", machine.collision_tolerance()}};
   report.summary = result.summary;
   report.diagnostics = job.diagnostics.list();
+  if (job.control)
+    for (const std::string& what : job.control->unchecked) report.summary.unchecked.push_back(what);
   if (checks.collision) {
     // An open mesh is checked by its surface only; what enters through a hole is not seen.
     Diagnostics model;

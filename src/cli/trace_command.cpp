@@ -16,27 +16,19 @@ int trace_command(const TraceArguments& a) {
   }
   interp::Options options;
   const bool reference = a.format == TraceFormat::rs274;
-  const bool reference_units = reference && a.program.machine.empty();
-  if (reference_units && !a.program.tools.empty()) {
-    // The reference program takes the inch as machine unit, so its tool table is read in inches.
-    ProgramArguments without_tools = a.program;
-    without_tools.tools.clear();
-    if (open_inputs(job, without_tools)) {
-      const auto table = tool::read_tools(a.program.tools, 25.4, job.sources, job.diagnostics);
-      if (table)
-        job.tools = *table;
-      else if (job.diagnostics.errors() == 0)
-        job.diagnostics.add(table.error());
-    }
-  } else {
-    open_inputs(job, a.program);
-  }
+  const bool reference_units =
+      reference && (a.program.machine.empty() || a.program.machine == ini_of(a.program));
+  // The reference program takes the inch as machine unit, so its tool table is read in inches.
+  open_inputs(job, a.program, reference_units ? std::optional(25.4) : std::nullopt);
   print_errors(job.diagnostics, a.color);
   if (job.diagnostics.errors() > 0) return code(ExitCode::unknown);
 
   options = interpreter_options(job, a.program, **program);
   if (reference_units) {
     options.machine_unit = canon::Unit::inch;
+    options.start_unit = canon::Unit::millimetre;
+    options.startup = nullptr;
+    options.tool_change_position.reset();
     options.axes = {};
     for (const Axis axis : {Axis::x, Axis::y, Axis::z, Axis::a, Axis::b, Axis::c})
       options.axes.add(axis);
@@ -48,6 +40,8 @@ int trace_command(const TraceArguments& a) {
   canon::Rs274Writer writer(options.start_unit);
   std::string out;
   constexpr std::size_t flush_at = 1 << 16;
+  std::vector<std::string> unchecked =
+      job.control ? job.control->unchecked : std::vector<std::string>();
   while (const auto command = interpreter.next()) {
     switch (a.format) {
       case TraceFormat::text:
@@ -62,6 +56,7 @@ int trace_command(const TraceArguments& a) {
     }
     if (const auto* probe = std::get_if<canon::Probe>(&command->action))
       interpreter.resume({.tip = probe->end, .tripped = false});
+    note_user_code(job, *command, diagnostics, unchecked);
     if (out.size() >= flush_at) {
       std::fwrite(out.data(), 1, out.size(), stdout);
       out.clear();
@@ -76,7 +71,8 @@ int trace_command(const TraceArguments& a) {
   }
   print_errors(diagnostics, a.color);
   if (diagnostics.errors() > 0) return code(ExitCode::fail);
-  return code(interpreter.statistics().limit_reached ? ExitCode::unknown : ExitCode::pass);
+  const bool unknown = interpreter.statistics().limit_reached || !unchecked.empty();
+  return code(unknown ? ExitCode::unknown : ExitCode::pass);
 }
 
 }  // namespace aircut::cli

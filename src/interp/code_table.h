@@ -117,6 +117,11 @@ class CodeTable {
   const CodeRule* find_g(int code) const {
     return code >= 0 && code < max_g ? g_[static_cast<std::size_t>(code)] : nullptr;
   }
+  /// A row that takes the place of the one of its code; it must outlive the table.
+  void replace(const CodeRule& rule) {
+    (rule.letter == 'G' ? g_[static_cast<std::size_t>(rule.code)]
+                        : m_[static_cast<std::size_t>(rule.code)]) = &rule;
+  }
   /// The rows in force, each code once.
   std::vector<const CodeRule*> rules() const;
   /// A number below `slots` that no other code has.

@@ -107,6 +107,9 @@ const std::vector<KindText>& error_kinds() {
       {"encoding", "a text that the control can't read",
        "Programs are plain text: no byte order mark, no UTF-16, no binary data. Save the file as "
        "UTF-8 without a mark."},
+      {"fanuc_subs_off", "M98 or a bare O-number where the machine's set-up forbids them",
+       "DISABLE_FANUC_STYLE_SUB is set. Use `o… sub`, `o… endsub` and `o… call`. Example: `M98 "
+       "P100`."},
       {"feed_before_unit", "F acts before the change of units on its line",
        "Warning. F runs before G20 and G21, so it is read in the old unit. Example: `G20 F10 G1 "
        "X1` in a metric program feeds 10 mm/min. Put G20 on a line before."},
@@ -128,6 +131,9 @@ const std::vector<KindText>& error_kinds() {
       {"g53_error", "G53 where it can't be used",
        "Machine coordinates need G90, G0 or G1, and no radius compensation. Example: `G91 G53 G0 "
        "Z0`."},
+      {"indexer_move", "a clamped (indexing) axis that can't be moved so",
+       "Such an axis is unlocked for a G0 of its own. Example: `G0 X1 A90`, `G1 A90`. Give it a "
+       "line of its own."},
       {"io_error", "M66 with words that do not fit",
        "M66 takes P (digital) or E (analog), and Q above 0 when it waits. Example: `M66 P1 E1`."},
       {"label_missing", "an O-word without its other half",
@@ -186,6 +192,12 @@ const std::vector<KindText>& error_kinds() {
        "G30 P2 to P4 need the machine's points from the parameter file (#5181, #20181, #20201), "
        "G29 "
        "a G28 before, G27 must end at the point. Example: `G29 X0` as the first move."},
+      {"remap_words", "a remapped code without the words that its REMAP line asks for",
+       "A capital letter in argspec= is a word that must be there, `>` asks for F and `^` for S "
+       "above 0. Example: `M400` with argspec=P."},
+      {"retained_offset", "a length offset that the machine does not take",
+       "Warning. With RETAIN_G43 the tool in the spindle says the offset as long as G43 is on. "
+       "Example: `G43 H2` with tool 1 in the spindle, `G49`."},
       {"shared_axis_words", "axis words used for an offset and a move",
        "Warning. In `G43.1 Z1 G0 X3` both words set the offset and are the end of the move. Use "
        "two lines."},
@@ -236,6 +248,12 @@ const std::vector<KindText>& error_kinds() {
        "and the word E3."},
       {"word_value", "a word outside its range",
        "Example: `G2 … P0` (turns are 1 or more), `S-5`, an H word that is not an integer."},
+      {"wrapped_axis", "a position of a wrapped axis beyond one turn",
+       "In G90 such an axis takes -359.999… to 359.999…, the sign says the way. Example: `G0 "
+       "A400`. Use G91 for more turns."},
+      {"wrapped_offset", "a wrapped axis that stops at another machine angle than the one named",
+       "Warning. The control takes offsets off a machine position before it chooses the turn, and "
+       "loses the sign. Example: `G53 G0 A20` with 30 degrees in G54."},
       {"wrong_offset", "the length or diameter of another tool",
        "H (error) or D (warning) names another tool than the one in the spindle when the machine "
        "next moves, or the length of the tool before is still in force at the first cut. A wrong "

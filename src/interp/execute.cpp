@@ -35,10 +35,62 @@ void BlockExecutor::execute(std::string_view line) {
   if (block_.words.empty()) return;
   if (run_.state.data_setting && !ends_data()) return;
   if (!collect() || !check_axes() || !find_motion() || !check_words()) return;
-  for (std::size_t i = 0; i < count_ && run_.ok(); ++i) perform(items_[i]);
+  perform_from(0);
+}
+
+void BlockExecutor::resume(const SuspendedBlock& rest) {
+  items_ = rest.items;
+  count_ = rest.count;
+  run_.motion_rule = rest.motion_rule;
+  run_.feed_given = rest.feed_given;
+  mode_only_ = rest.mode_only;
+  for (const Word& word : block_.words) letters_ |= bit(word.letter);
+  run_.axis_words_ = (letters_ & (axis_letters | polar_letters)) != 0;
+  perform_from(rest.next);
+}
+
+void BlockExecutor::perform_from(std::size_t first) {
+  const RemapSet& remaps = run_.session.remaps;
+  for (std::size_t i = first; i < count_ && run_.ok(); ++i) {
+    const BlockItem& item = items_[i];
+    const Remapped* remapped = remaps.empty() ? nullptr
+                               : item.rule    ? remaps.of(item.rule)
+                                              : remaps.of(item.letter);
+    if (!remapped)
+      perform(item);
+    else if (remapped->remap->python.empty())
+      return call_remap(i);
+    else {
+      list_remap(run_, *remapped->remap);
+      if (!item.rule || remapped->builtin) perform({item.phase, remapped->builtin, item.letter});
+    }
+  }
   if (!run_.ok()) return;
-  for (std::size_t i = 0; i < count_; ++i)
+  for (std::size_t i = first; i < count_; ++i)
     if (items_[i].rule) ++run_.session.executed[CodeTable::slot(*items_[i].rule)];
+}
+
+// The sub runs once what stands before its code on the line is done and kept.
+void BlockExecutor::call_remap(std::size_t at) {
+  const BlockItem& item = items_[at];
+  auto call = std::make_unique<RemapCall>();
+  call->remapped =
+      item.rule ? run_.session.remaps.of(item.rule) : run_.session.remaps.of(item.letter);
+  call->place = item.rule ? run_.place(*item.rule) : run_.place(item.letter);
+  if (!remap_arguments(run_, *call)) return;
+  if (at + 1 < count_) {
+    auto rest = std::make_unique<SuspendedBlock>();
+    rest->block = block_;
+    rest->items = items_;
+    rest->count = count_;
+    rest->next = at + 1;
+    rest->motion_rule = run_.motion_rule;
+    rest->feed_given = run_.feed_given;
+    rest->mode_only = mode_only_;
+    call->rest = std::move(rest);
+  }
+  run_.flow.kind = FlowRequest::Kind::remap;
+  run_.remap = std::move(call);
 }
 
 // Words and settings read the parameters as they are before the line. But a name that is new is 0
@@ -170,8 +222,10 @@ bool BlockExecutor::ends_data() const {
 // Finds the rows of the codes, clashes in a group, and codes that are not known.
 bool BlockExecutor::collect() {
   std::uint32_t groups = 0;
-  for (const Word& word : block_.words) {
+  const RemapSet& remaps = run_.session.remaps;
+  for (Word& word : block_.words) {
     letters_ |= bit(word.letter);
+    if (!remaps.empty()) word.rule = remaps.in_force(word.rule);
     switch (word.letter) {
       case 'F':
         add(Phase::feed, nullptr, 'F');
@@ -312,7 +366,7 @@ bool BlockExecutor::check_words() {
   return true;
 }
 
-void BlockExecutor::perform(const Item& item) {
+void BlockExecutor::perform(const BlockItem& item) {
   if (!item.rule) {
     if (item.letter == 'F') return feed_word(run_);
     if (item.letter == 'S' && own_ && own_->handler == speed_limit) return;

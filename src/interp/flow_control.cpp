@@ -37,6 +37,11 @@ void Interpreter::Impl::execute_oword(Block& block) {
   if (!entry_is_sound(at)) return;
   switch (oword.keyword) {
     case Keyword::fanuc_sub:
+      if (!options_.fanuc_subs)
+        report("fanuc_subs_off", oword.place,
+               "subs of this style are switched off on this machine (DISABLE_FANUC_STYLE_SUB); use "
+               "o… sub and o… endsub");
+      return;
     default:
       return;
     case Keyword::sub:

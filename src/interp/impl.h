@@ -71,9 +71,11 @@ struct Frame {
   std::uint64_t repeats = 1;  ///< M98 L: passes still to do with this one
   std::vector<Loop> loops;
   std::shared_ptr<const CallFrame> calls;
-  std::optional<ModalState> saved;          ///< M70, M73
-  bool restore_at_return = false;           ///< M73
-  std::unique_ptr<ContourReading> reading;  ///< its moves are a contour
+  std::optional<ModalState> saved;            ///< M70, M73
+  bool restore_at_return = false;             ///< M73
+  std::unique_ptr<ContourReading> reading;    ///< its moves are a contour
+  const Remapped* remap = nullptr;            ///< the sub stands for this code
+  std::unique_ptr<SuspendedBlock> suspended;  ///< the rest of the line with that code
 
   // macro B
   bool header_seen = false;          ///< the O word of the program that the lines belong to
@@ -134,7 +136,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void end_of_file();
   bool is_percent_line(const ProgramFile& file, std::string_view line) const;
   void execute(Block& block);
-  void execute_words(Block& block);
+  void execute_words(Block& block, const SuspendedBlock* rest = nullptr);
   bool plain_move(const Block& block);
   bool plain_settings(const Block& block);
   bool count_block();
@@ -192,6 +194,10 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void leave_sub(Block& block);
   void return_fanuc();
   void return_from_call();
+  void call_remap(RemapCall& call);
+  void resume_line(std::unique_ptr<SuspendedBlock> rest);
+  bool remaps_are_sound();
+  void run_startup_line();
   ProgramFile* find_known_sub(const std::string& name);
   ProgramFile* find_sub(const std::string& name, const Block& block, Place place);
   ProgramFile* open_sub_file(const std::string& name, Place place, bool& found);
@@ -220,7 +226,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void inform(const Fault& fault);
   const char* dialect_advice(const SourceSpan& at) const;
   bool is_cascade(const Fault& fault) const;
-  void run_block(BlockRun& run, Block& block);
+  void run_block(BlockRun& run, Block& block, const SuspendedBlock* rest = nullptr);
   void remember_failure(const Block& block);
 
   /// What failed blocks would have set: errors that only follow from that are not told.
@@ -251,6 +257,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   int contour_frame_ = -1;                            ///< the call whose moves are a contour
   std::unique_ptr<ContourReading> finished_reading_;  ///< messages still refer to it
   Block* block_ = nullptr;                            ///< in execution
+  std::unique_ptr<SuspendedBlock> resumed_;  ///< the line that goes on behind a remapped code
   SourceSpan span_;
   bool span_valid_ = false;
   bool done_ = false;
@@ -285,14 +292,10 @@ class BlockExecutor {
   void execute(std::string_view line);
   /// Only evaluates the words and makes the settings.
   bool values() { return evaluate() && settings(); }
+  /// Goes on with a line whose remapped code was done by a sub.
+  void resume(const SuspendedBlock& rest);
 
  private:
-  struct Item {
-    Phase phase;
-    const CodeRule* rule;  ///< null for F, S, T
-    char letter;
-  };
-
   std::optional<double> value_of(const Value& value);
   bool evaluate();
   bool evaluate_macro_b();
@@ -303,7 +306,9 @@ class BlockExecutor {
   bool check_words();
   bool check_axes();
   bool ends_data() const;
-  void perform(const Item& item);
+  void perform_from(std::size_t first);
+  void perform(const BlockItem& item);
+  void call_remap(std::size_t at);
   void after_motion(const CodeRule& rule);
   void add(Phase phase, const CodeRule* rule, char letter);
   void drop_g80();
@@ -311,7 +316,7 @@ class BlockExecutor {
 
   BlockRun& run_;
   Block& block_;
-  std::array<Item, 40> items_;
+  BlockItems items_;
   std::size_t count_ = 0;
   std::uint32_t letters_ = 0;  ///< bit per letter_index
   const CodeRule* own_ = nullptr;

@@ -46,6 +46,20 @@ struct DialectGuess {
 };
 DialectGuess guess_dialect(std::string_view text);
 
+/// A code that the machine's set-up gives a meaning of its own (LinuxCNC: `REMAP=`).
+struct Remap {
+  char letter = 'M';    ///< G, M, or T, S, F: the word itself
+  int code = 0;         ///< G: number × 10; M: number; T, S, F: 0
+  int modal_group = 0;  ///< LinuxCNC's number: G 1, M 4-10
+  /// Words that the sub gets as #<letter>: capital = required, small = if given; `>` `^`: the feed,
+  /// the speed, which must be above 0; `n` `N`: the line's number; `@`: as #1, #2 … instead.
+  std::string argspec;
+  std::string ngc;     ///< sub and file that is called; empty: none
+  std::string python;  ///< what would run as a program of the control: listed, never run
+  std::string name;    ///< as messages call it: `M400`, `G88.1`, `T`
+  SourceSpan span;     ///< where it is said
+};
+
 struct Options {
   Dialect dialect = Dialect::linuxcnc;
   std::string
@@ -62,12 +76,33 @@ struct Options {
   int tool_in_spindle = 0;
   std::vector<std::string> sub_path;                ///< folders in which called subs are looked for
   std::vector<std::pair<std::string, double>> set;  ///< --set: "#100" or "#<name>", value
-  std::map<std::string, double> ini;                ///< `section/key` for #<_ini[section]key>
+  std::map<std::string, double> ini;                ///< `SECTION/KEY` for #<_ini[section]key>
   double arc_tolerance = 0.0283;                    ///< centre-format radius tolerance, mm (G21)
   double arc_tolerance_inch = 0.00283;              ///< the same in inches (G20)
   int spindles = 1;                                 ///< 1-8
   double g73_clearance = 0;                         ///< mm; 0: 0.254 mm (G21) or 0.010 in (G20)
   double g83_clearance = 0;                         ///< mm; 0: the same
+  std::optional<double> g64_tolerance;              ///< mm, of G64 without P; nothing: no limit
+  std::optional<double> g64_naive_tolerance;        ///< mm, of G64 without P and Q
+  AxisSet wrapped;   ///< rotary axes that G90 turns the short way, by the sign of the word
+  AxisSet indexers;  ///< rotary axes that are clamped: they move alone, with G0
+  std::vector<Remap> remaps;
+  bool tool_change_at_g30 = false;        ///< M6 goes to the G30 position first
+  bool tool_change_quill_up = false;      ///< M6 lifts Z to machine 0 first
+  bool tool_change_with_spindle = false;  ///< M6 leaves the spindle turning
+  /// M6 moves these axes to this machine position first.
+  std::optional<std::pair<AxisSet, AxisValues>> tool_change_position;
+  bool retain_length_offset = false;  ///< M6 with G43 in force takes the new tool's offset
+  bool fanuc_subs = true;             ///< M98, M99 (LinuxCNC dialect)
+  bool g54_at_end = true;             ///< M2, M30 go back to G54
+  bool keep_g92 = true;               ///< G92 of the parameter file is in force at the start
+  bool count_arguments = false;       ///< #<n_args> in a sub: how many arguments the call had
+  bool ini_variables = true;          ///< #<_ini[…]…> can be read
+  bool hal_pins = true;               ///< #<_hal[…]> can be read, once --set gave its value
+  double orient_offset = 0;           ///< degrees, added to R of M19
+  /// A line that is executed before the program, and the text that it is in (null: none).
+  const SourceText* startup = nullptr;
+  SourceSpan startup_line;
   Limits limits;
   /// Lines that most programs are made of go past the code table. Off only in tests, which compare.
   bool fast_paths = true;

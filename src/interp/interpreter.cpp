@@ -213,10 +213,11 @@ bool Interpreter::Impl::count_block() {
   return false;
 }
 
-void Interpreter::Impl::run_block(BlockRun& run, Block& block) {
+void Interpreter::Impl::run_block(BlockRun& run, Block& block, const SuspendedBlock* rest) {
   const Frame& frame = frames_.back();
   run.level = frames_.size() == 1 ? Level::main : frame.fanuc ? Level::fanuc_sub : Level::sub;
   run.saved = frame.saved ? &*frame.saved : nullptr;
+  if (rest) return BlockExecutor(run, block).resume(*rest);
   BlockExecutor(run, block).execute(frame.file->text->content().substr(block.begin, block.length));
 }
 
@@ -245,6 +246,7 @@ bool Interpreter::Impl::plain_move(const Block& block) {
     if (word.rule) continue;
     const Axis axis = *axis_of_letter(word.letter);
     if (!options_.axes.empty() && !options_.axes.has(axis)) return false;
+    if (options_.wrapped.has(axis) || options_.indexers.has(axis)) return false;
     double number = word.number;
     if (!word.text.constant()) {
       const auto value = evaluate(word.text, block.code, parameters_, fault);
@@ -298,9 +300,9 @@ bool Interpreter::Impl::plain_settings(const Block& block) {
   return true;
 }
 
-void Interpreter::Impl::execute_words(Block& block) {
+void Interpreter::Impl::execute_words(Block& block, const SuspendedBlock* rest) {
   if (contour_frame_ >= 0) return read_contour_block(block);
-  if (options_.fast_paths && (plain_move(block) || plain_settings(block))) return;
+  if (!rest && options_.fast_paths && (plain_move(block) || plain_settings(block))) return;
   const bool settings_only = block.words.empty() && !block.comment;
   if (settings_only && (!table_.dialect().macro_b ||
                         block.plain_settings)) {  // settings alone leave the modal state as it is
@@ -324,7 +326,7 @@ void Interpreter::Impl::execute_words(Block& block) {
   std::optional<Compensator> comp_before;
   if (comp_active) comp_before = session_.compensator;
   BlockRun run(session_, block, next_, *this, queue_);
-  run_block(run, block);
+  run_block(run, block, rest);
   if (!run.ok()) {
     queue_.resize(first);
     parameters_.roll_back();
@@ -394,6 +396,9 @@ void Interpreter::Impl::execute_words(Block& block) {
       break;
     case FlowRequest::Kind::contour:
       start_contour(run.flow, *run.flow.cycle);
+      break;
+    case FlowRequest::Kind::remap:
+      call_remap(*run.remap);
       break;
   }
 }

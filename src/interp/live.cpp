@@ -149,7 +149,7 @@ double Interpreter::Impl::predefined(int which) const {
     case 55:
       return static_cast<double>(frames_.size() - 1);
     case 56:
-      return 0;  // _remap_level
+      return session_.remaps.level();
     case 57:
       return 2.9;
     default:

@@ -88,13 +88,18 @@ const std::vector<std::string>& predefined_names() {
   return names;
 }
 
-Parameters::Parameters(const LiveValues& live, std::map<std::string, double> ini, bool macro_b)
-    : live_(live), macro_b_(macro_b), values_(number::last + 1, 0.0), levels_(1) {
+Parameters::Parameters(const LiveValues& live, std::map<std::string, double> ini, bool macro_b,
+                       bool hal_pins)
+    : live_(live),
+      macro_b_(macro_b),
+      ini_(std::move(ini)),
+      hal_pins_(hal_pins),
+      values_(number::last + 1, 0.0),
+      levels_(1) {
   if (macro_b) {
     first_computed_ = macro_locals + 1;
     std::fill(values_.begin() + 1, values_.begin() + first_system, vacant_value);
   }
-  for (auto& [key, value] : ini) ini_[upper(key)] = value;
   values_[number::active_system] = 1;
   values_[number::debug_enabled] = 1;
 }
@@ -139,8 +144,8 @@ std::int32_t Parameters::intern(std::string_view name) {
     entry.kind = NameKind::ini;
     entry.defined = found != ini_.end();
     if (entry.defined) entry.value = found->second;
-  } else if (name.starts_with("_hal[")) {
-    entry.kind = NameKind::missing;
+  } else if (name.starts_with("_hal[") && hal_pins_) {
+    entry.kind = NameKind::pin;
   } else if (name.starts_with("_")) {
     entry.kind = NameKind::global;
   }
@@ -193,6 +198,11 @@ bool Parameters::read_only_name(std::int32_t id) const {
   return kind != NameKind::local && kind != NameKind::global;
 }
 
+bool Parameters::settable_from_outside(std::int32_t id) const {
+  const NameKind kind = names_[static_cast<std::size_t>(id)].kind;
+  return kind == NameKind::pin || !read_only_name(id);
+}
+
 std::optional<double> Parameters::read_named(std::int32_t id, Place place,
                                              std::optional<Fault>& fault) const {
   const Name& name = names_[static_cast<std::size_t>(id)];
@@ -203,10 +213,15 @@ std::optional<double> Parameters::read_named(std::int32_t id, Place place,
     return name.value;
   }
   std::string message = "the parameter #<" + printable(name.text) + "> is not defined";
-  if (name.kind == NameKind::missing)
-    message += "; pins of a machine can't be read here";
+  if (name.kind == NameKind::pin)
+    message +=
+        ": there is no machine whose pins could be read; give the value that the pin has, "
+        "e.g. --set '#<" +
+        printable(name.text) + ">=1'";
   else if (name.kind == NameKind::ini)
-    message += "; the machine's INI file has no such entry";
+    message +=
+        "; the machine's INI file has no such entry with a number (section and key in "
+        "capitals)";
   else
     message += "; set it before this line, e.g. #<" + printable(name.text) + "> = 0";
   fault = Fault{"parameter_undefined", place, std::move(message)};

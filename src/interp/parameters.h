@@ -56,8 +56,10 @@ const std::vector<std::string>& predefined_names();
 
 class Parameters {
  public:
+  /// `ini`: SECTION/KEY → value, by which #<_ini[section]key> is found in capitals.
   /// `macro_b`: variables of Fanuc-like controls, vacant until they are set.
-  Parameters(const LiveValues& live, std::map<std::string, double> ini, bool macro_b = false);
+  Parameters(const LiveValues& live, std::map<std::string, double> ini, bool macro_b = false,
+             bool hal_pins = true);
 
   // ---- numbered
   static bool in_range(int n) { return n >= 1 && n <= number::last; }
@@ -86,6 +88,8 @@ class Parameters {
   std::optional<double> read_named(std::int32_t id, Place place, std::optional<Fault>& fault) const;
   bool exists(std::int32_t id) const;
   bool read_only_name(std::int32_t id) const;
+  /// Pins of the machine are given by the user, not by the program.
+  bool settable_from_outside(std::int32_t id) const;
   bool too_many_names() const { return names_.size() > 100'000; }
   void write_named(std::int32_t id, double value);
   /// The id when the name is known, without interning it.
@@ -104,7 +108,7 @@ class Parameters {
   void roll_back();
 
  private:
-  enum class NameKind : unsigned char { local, global, predefined, ini, missing };
+  enum class NameKind : unsigned char { local, global, predefined, ini, pin };
   struct Name {
     std::string text;
     NameKind kind = NameKind::local;
@@ -132,6 +136,7 @@ class Parameters {
   bool macro_b_ = false;
   int first_computed_ = number::absolute_position;  ///< below are stored values
   std::map<std::string, double> ini_;
+  bool hal_pins_ = true;
   std::vector<double> values_;
   std::vector<Name> names_;
   std::map<std::string, std::int32_t, std::less<>> ids_;

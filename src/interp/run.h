@@ -14,6 +14,7 @@
 #include "interp/interp.h"
 #include "interp/offset_memory.h"
 #include "interp/parameters.h"
+#include "interp/remap.h"
 #include "interp/state.h"
 
 namespace aircut::interp {
@@ -31,6 +32,7 @@ struct Session {
   int points_missing = 0;               ///< `decimal_point` warnings told so far
   OffsetMemory offsets{};               ///< Fanuc, Haas
   AxisValues skip_position{};           ///< of the last G31, with the tool offset: work coordinates
+  RemapSet remaps{};
 };
 
 /// What a block asks of the flow of control once it has succeeded.
@@ -45,7 +47,8 @@ struct FlowRequest {
     local_call,  ///< M97
     macro_call,  ///< G65
     modal_call,  ///< G66
-    modal_end    ///< G67
+    modal_end,   ///< G67
+    remap        ///< the sub of a remapped code
   } kind = Kind::none;
   std::int64_t label = 0;             ///< P: program, or block of M97
   std::uint64_t repeats = 1;          ///< L
@@ -94,6 +97,7 @@ class BlockRun {
   canon::Plane plane_before;  ///< at the start of the line
   FlowRequest flow;
   StackRequest stack;
+  std::unique_ptr<RemapCall> remap;  ///< of FlowRequest::Kind::remap
   Level level = Level::main;
   const ModalState* saved = nullptr;       ///< by M70 on this level
   const CodeRule* motion_rule = nullptr;   ///< explicit or modal, of this line

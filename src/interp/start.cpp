@@ -26,7 +26,8 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
       reader_(std::move(reader)),
       diagnostics_(diagnostics),
       table_(options_.dialect, options_.lathe),
-      parameters_(*this, options_.ini, table_.dialect().macro_b),
+      parameters_(*this, options_.ini_variables ? options_.ini : std::map<std::string, double>(),
+                  table_.dialect().macro_b, options_.hal_pins),
       tools_(tools),
       session_{options_,
                table_,
@@ -40,6 +41,7 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
   options_.spindles = std::clamp(options_.spindles, 1, max_spindles);
   frames_.emplace_back();
   frames_.back().file = &file_for(program);
+  session_.remaps.fill(options_.remaps, table_);
   start(file);
 }
 
@@ -53,7 +55,15 @@ void Interpreter::Impl::start(const ParameterFile& file) {
   }
   state_.tool = options_.tool_in_spindle;
   if (table_.dialect().macro_b) load_offsets(file);
+  // The spindle of a random tool changer is its pocket 0.
+  if (tools_.random_changer && state_.tool == 0)
+    for (const tool::Tool& tool : tools_.tools)
+      if (tool.pocket == 0) state_.tool = tool.number;
   load_parameters(file);
+  if (!options_.keep_g92) {
+    for (int n = number::g92_applied; n < number::g92_offset + 9; ++n) parameters_.write(n, 0);
+    parameters_.commit();
+  }
   apply_settings();
   const bool fanuc = table_.dialect().macro_b;  // starts with G54 and no shift
   const double stored = fanuc ? 1 : parameters_.stored(number::active_system);
@@ -75,6 +85,32 @@ void Interpreter::Impl::start(const ParameterFile& file) {
   }
   if (!text_is_readable()) return stop();
   emit_start_state();
+  if (!remaps_are_sound()) return stop();
+  if (options_.startup) run_startup_line();
+}
+
+// One line that the machine's set-up gives, executed as if it stood before the program.
+void Interpreter::Impl::run_startup_line() {
+  Frame& frame = frames_.emplace_back();
+  frame.file = &file_for(*options_.startup);
+  frame.at = options_.startup_line.begin;
+  frame.line = options_.startup_line.line - 1;
+  if (Block* block = fetch()) {
+    if (block->oword.keyword == Keyword::none) {
+      ++statistics_.blocks;
+      execute_words(*block);
+    } else {
+      report("flow_syntax", block->oword.place,
+             "the start-up line can't hold an O-word here; write the codes themselves");
+    }
+  }
+  if (statistics_.ended) {  // M2 resets the modes; the program is still to come
+    statistics_.ended = false;
+    done_ = false;
+  }
+  while (frames_.size() > 1) frames_.pop_back();
+  block_ = nullptr;
+  span_valid_ = false;
 }
 
 // Work systems and reference points of a Fanuc-like control, by the numbers of its own variables.
@@ -139,7 +175,7 @@ void Interpreter::Impl::apply_settings() {
     if (is_setting) {
       const Setting& setting = block.settings.front();
       if (setting.name >= 0) {
-        done = !parameters_.read_only_name(setting.name);
+        done = parameters_.settable_from_outside(setting.name);
         if (done) parameters_.write_named(setting.name, value);
       } else {
         const int n = as_integer(setting.target.number).value_or(0);

@@ -82,7 +82,8 @@ struct ModalState {
   /// G69: the next move in this plane must be absolute.
   bool turn_was_left = false;
   AxisValues length_offset;
-  int system = 1;  ///< 1 (G54) … 9; 100 + n: G54.1 Pn
+  bool length_offset_on = false;  ///< G43 G43.1 G43.2, not G49
+  int system = 1;                 ///< 1 (G54) … 9; 100 + n: G54.1 Pn
   // Fanuc
   bool length_suspended = false;  ///< G28 or G53 took the length offset away while G43 is on
   int length_number = -1;         ///< of the last H word; -1: none yet

@@ -195,7 +195,9 @@ void Interpreter::Impl::call(Block& block) {
   sub.passed = true;
   std::string what = written_label(*label) + " call";
   for (const double value : *arguments) what += " [" + shortest(value) + "]";
-  enter_sub(*file, at, &*arguments, std::move(what));
+  if (!enter_sub(*file, at, &*arguments, std::move(what)) || !options_.count_arguments) return;
+  parameters_.write_named(parameters_.intern("n_args"), static_cast<double>(arguments->size()));
+  parameters_.commit();
 }
 
 bool Interpreter::Impl::enter_sub(ProgramFile& file, int at, const std::vector<double>* arguments,
@@ -258,9 +260,12 @@ void Interpreter::Impl::return_from_call() {
   }
   parameters_.leave();
   auto reading = std::move(frame.reading);
+  if (frame.remap) session_.remaps.leave();
+  auto rest = std::move(frame.suspended);
   frames_.pop_back();
   span_valid_ = false;
   if (reading) finish_contour(std::move(reading));
+  if (rest && !done_) resume_line(std::move(rest));
 }
 
 void Interpreter::Impl::call_fanuc(const FlowRequest& request) {

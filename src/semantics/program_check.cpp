@@ -443,6 +443,11 @@ void ProgramCheck::State::on(const canon::UserCode& c, const Command& command) {
                                 rule->second.kind == machine::UserCodeKind::time))
       return;
   }
+  if (!c.remap.empty())
+    return tell_unknown("not_executed", command.span,
+                        c.remap + " is remapped to Python, which is never run here",
+                        "what follows was checked as if the remap did nothing more than the code "
+                        "itself");
   const std::string name = "M" + std::to_string(c.code);
   tell_unknown(
       "not_executed", word_in(command.span, 'M', c.code),

@@ -102,6 +102,12 @@ void Simulator::user_code(const Step& step, const canon::UserCode& code) {
                               rule->second.kind == machine::UserCodeKind::time))
     return;
   Finding f = finding_at(Kind::not_executed, step, step.segment.t_end());
+  if (!code.remap.empty()) {
+    f.message = code.remap + " is remapped to Python, which is never run here";
+    f.remedy = "what follows was checked as if the remap did nothing more than the code itself";
+    f.makes_unknown = true;
+    return findings_.add(f);
+  }
   f.message =
       "M" + std::to_string(code.code) + " runs a program of the control, which is never run here";
   f.remedy = "say in the machine's [mcodes] that it can be ignored: M" + std::to_string(code.code) +

@@ -33,13 +33,35 @@ Setting small_limits() {
   return setting;
 }
 
+/// Some kinds need a machine whose set-up says something special.
+Setting setting_for(const std::string& kind) {
+  Setting setting = small_limits();
+  setting.options.fanuc_subs = kind != "fanuc_subs_off";
+  if (kind.starts_with("wrapped") || kind == "indexer_move") {
+    setting.options.axes.add(Axis::a);
+    (kind == "indexer_move" ? setting.options.indexers : setting.options.wrapped).add(Axis::a);
+  }
+  setting.options.retain_length_offset = kind == "retained_offset";
+  if (kind == "remap_words") {
+    interp::Remap remap;
+    remap.code = 400;
+    remap.modal_group = 10;
+    remap.argspec = "P";
+    remap.ngc = "body";
+    remap.name = "M400";
+    setting.options.remaps.push_back(remap);
+    setting.files["folder/body.ngc"] = "o<body> sub\no<body> endsub\n";
+  }
+  return setting;
+}
+
 TEST(ErrorKinds, EachHasAProgramThatProvokesIt) {
   for (const interp::KindText& kind : interp::error_kinds()) {
     if (std::string(kind.kind) == "parameter_order") continue;  // of the parameter file, below
     const std::string path = folder + kind.kind + ".ngc";
     ASSERT_TRUE(std::filesystem::exists(path)) << path;
     SourceMap sources;
-    Setting setting = small_limits();
+    Setting setting = setting_for(kind.kind);
     const std::string text = read(path);
     if (text.find("(! dialect fanuc)") != std::string::npos)
       setting.options.dialect = interp::Dialect::fanuc;

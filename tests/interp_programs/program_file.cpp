@@ -86,6 +86,21 @@ void read_setting(ProgramFile& program, const std::string& setting) {
   } else if (key == "set") {
     const auto parts = split(rest, "=");
     program.options.set.emplace_back(parts.front(), parse_number(parts.back()).value_or(0));
+  } else if (key == "wrapped" || key == "indexers") {
+    AxisSet& axes = key == "wrapped" ? program.options.wrapped : program.options.indexers;
+    for (const char c : rest)
+      if (const auto axis = axis_of_letter(c)) axes.add(*axis);
+  } else if (key == "no-fanuc-subs") {
+    program.options.fanuc_subs = false;
+  } else if (key == "retain-length-offset") {
+    program.options.retain_length_offset = true;
+  } else if (key == "remap-m") {
+    interp::Remap remap;
+    std::istringstream words(rest);
+    words >> remap.code >> remap.argspec >> remap.ngc;
+    remap.modal_group = 10;
+    remap.name = "M" + std::to_string(remap.code);
+    program.options.remaps.push_back(remap);
   } else if (key == "max-idle-blocks") {
     program.options.limits.max_idle_blocks = std::stoull(rest);
   } else if (key == "no-peer") {
@@ -179,7 +194,7 @@ Outcome run_program(const ProgramFile& program, bool keep_going, const std::stri
   const auto tools = tool::read_tbl(sources.add("tool.tbl", program.tools), unit_mm, diagnostics);
   interp::Options options = program.options;
   options.keep_going = keep_going;
-  options.sub_path = {sub_folder};
+  options.sub_path.push_back(sub_folder);
   const SourceReader reader = [&](const std::string& path) { return sources.open(path); };
   interp::Interpreter interpreter(text, tools ? *tools : tool::ToolTable(), program.parameters,
                                   options, reader, diagnostics);

@@ -44,13 +44,6 @@ Call parse_line(const std::string& line) {
   return {line.substr(call), n};
 }
 
-std::vector<Call> parse_trace(const std::string& text) {
-  std::vector<Call> calls;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) calls.push_back(parse_line(line));
-  return calls;
-}
-
 std::string name_of(const Call& call) { return call.text.substr(0, call.text.find_first_of("( ")); }
 
 bool is_ignored(const Call& call) {
@@ -124,6 +117,13 @@ std::string ini_text(const std::string& folder, const std::string& sub_folder) {
 }
 
 }  // namespace
+
+std::vector<Call> parse_trace(const std::string& text) {
+  std::vector<Call> calls;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) calls.push_back(parse_line(line));
+  return calls;
+}
 
 bool reference_is_installed() {
   const char* path = std::getenv("PATH");

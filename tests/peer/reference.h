@@ -43,6 +43,9 @@ class Reference {
   std::optional<Server> server_;  ///< started with these tools and this switch
 };
 
+/// Calls of the text of a trace.
+std::vector<Call> parse_trace(const std::string& text);
+
 /// The trace of this project's interpreter, stopped at the first error as the reference is.
 Trace own_trace(const ProgramFile& program, const std::string& sub_folder);
 

@@ -96,6 +96,19 @@ void rotation_off(const CodeRule&, BlockRun&);
 void spindle_mode(const CodeRule&, BlockRun&);
 void spindle_turn(const CodeRule&, BlockRun&);
 void spindle_orient(const CodeRule&, BlockRun&);
+// rotary.cpp
+/// What the machine's set-up says about rotary axes (wrapped, clamped) for the move of the line to
+/// `end`; false with an error.
+bool apply_rotary_rules(BlockRun& run, AxisValues& end);
+/// The same for a stored machine position, which no word names: the wrapped axes of `axes`.
+bool wrap_stored(BlockRun& run, AxisValues& end, AxisSet axes);
+/// True when a word of the line names a clamped axis.
+bool turns_indexer(const BlockRun& run);
+/// A rapid that first turns the clamped axes, one by one.
+void rapid_with_indexers(BlockRun& run, const AxisValues& end, const std::string& what);
+/// Between these two the path mode is exact path.
+void begin_exact_path(BlockRun& run);
+void end_exact_path(BlockRun& run);
 // tool_change.cpp
 void change_tool(const CodeRule&, BlockRun&);
 void set_tool_number(const CodeRule&, BlockRun&);
@@ -158,6 +171,9 @@ void load_work_system(BlockRun& run, int system);
 /// Turns radius compensation on; a radius below 0 changes the side.
 void start_compensation(const CodeRule& rule, BlockRun& run, CompSide side, double radius,
                         int orientation);
+/// A rapid to the machine position that the parameters keep (#5161…, #5181…): of `axes`, or of all
+/// when there are none.
+void go_to_stored(BlockRun& run, int first_number, AxisSet axes, const std::string& what);
 /// Sets the length offset in force; the controlled point stays where it is.
 /// `tool`: whose length it is; 0 when it is not a tool's.
 void use_length_offset(BlockRun& run, const AxisValues& offset, int tool = 0);

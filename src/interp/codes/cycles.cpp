@@ -226,12 +226,9 @@ void Cycle::execute() {
   clear_ = state_.retract_to_r ? r_ : std::max(r_, cycle.initial);
   if (std::fabs(c_ - r_) < rounding) c_ = r_;
   if (cycle.initial < r_ - rounding) rapid_to(r_, "rise to R");
-  const bool exact = state_.path_mode == canon::PathMode::exact_path;
-  if (!exact) run_.emit(canon::SetPathMode{canon::PathMode::exact_path, 0});
+  begin_exact_path(run_);
   for (int i = 1; i <= repeats && run_.ok(); ++i) repeat(i, repeats);
-  if (exact) return;
-  emit_path_mode(run_);
-  emit_naive_tolerance(run_);
+  end_exact_path(run_);
 }
 
 void Cycle::repeat(int number, int repeats) {

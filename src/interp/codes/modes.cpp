@@ -119,8 +119,13 @@ void path_mode(const CodeRule& rule, BlockRun& run) {
   } else {
     state.path_mode = canon::PathMode::continuous;
     // Nothing or less than nothing means no limit.
-    state.path_tolerance = std::max(0.0, run.number_or('P', 0));
-    const double q = run.number_or('Q', -1);
+    const Options& options = run.session.options;
+    const double unit = state.unit_mm();
+    state.path_tolerance =
+        std::max(0.0, run.number_or('P', options.g64_tolerance.value_or(0) / unit));
+    const bool plain = !run.has('P') && options.g64_naive_tolerance;
+    const double q =
+        run.number_or('Q', plain ? *options.g64_naive_tolerance / unit : state.path_tolerance);
     state.naive_tolerance = q >= 0 ? q : state.path_tolerance;
   }
   emit_path_mode(run);

@@ -61,7 +61,9 @@ bool spindle_turns(BlockRun& run, const CodeRule& rule, int spindle) {
   return false;
 }
 
-std::optional<AxisValues> target_of(BlockRun& run) {
+namespace {
+
+std::optional<AxisValues> named_target(BlockRun& run) {
   const ModalState& state = run.state;
   if (run.machine_coordinates && run.motion_rule && !run.has('@') && !run.has('^'))
     return machine_target(run);
@@ -111,6 +113,14 @@ std::optional<AxisValues> target_of(BlockRun& run) {
   return tip;
 }
 
+}  // namespace
+
+std::optional<AxisValues> target_of(BlockRun& run) {
+  auto end = named_target(run);
+  if (end && !apply_rotary_rules(run, *end)) return std::nullopt;
+  return end;
+}
+
 bool feed_is_set(BlockRun& run, const CodeRule& rule) {
   if (run.state.feed_mode == canon::FeedMode::inverse_time) {
     if (run.feed_given && run.number_or('F', 0) > 0) return true;
@@ -138,7 +148,10 @@ void rapid(const CodeRule&, BlockRun& run) {
   if (!end) return;
   if (run.state.comp.side != CompSide::off || run.state.comp.leaving)
     return run.session.compensator.move(run, {PlannedMove::Kind::rapid, *end, {}});
+  const bool clamped = turns_indexer(run);
+  if (clamped) begin_exact_path(run);
   run.emit(canon::Rapid{*end});
+  if (clamped) end_exact_path(run);
   run.state.tip = *end;
 }
 

@@ -200,34 +200,40 @@ void machine_coordinates(const CodeRule& rule, BlockRun& run) {
   run.machine_coordinates = true;
 }
 
+void go_to_stored(BlockRun& run, int first_number, AxisSet axes, const std::string& what) {
+  const ModalState& state = run.state;
+  AxisValues home = run.stored_axes(first_number);
+  for (const Axis axis : all_axes)  // the control leaves the length offset of rotary axes out
+    if (!is_rotary(axis)) home[axis] -= state.length_offset[axis];
+  // Named axes go to the stored point's program coordinates; with a rotation X and Y mix.
+  AxisValues mixed = to_program(state, state.tip);
+  const AxisValues there = to_program(state, home);
+  for (const Axis axis : all_axes)
+    if (axes.has(axis)) mixed[axis] = there[axis];
+  const AxisValues turned = to_tip(state, mixed);
+  const bool in_plane = state.rotation != 0 && (axes.has(Axis::x) || axes.has(Axis::y));
+  AxisValues end = state.tip;
+  AxisSet moved;
+  for (const Axis axis : all_axes) {
+    if (in_plane && axis <= Axis::y) {
+      end[axis] = turned[axis];
+    } else if (axes.empty() || axes.has(axis)) {
+      end[axis] = home[axis];
+      moved.add(axis);
+    }
+  }
+  if (wrap_stored(run, end, moved)) rapid_with_indexers(run, end, what);
+}
+
 void go_home(const CodeRule& rule, BlockRun& run) {
   if (refuse_with_comp(run, rule)) return;
   const AxisSet axes = axes_given(run);
   const auto middle = target_of(run);
   if (!middle) return;
   const std::string what = name_of(rule);
-  run.emit(canon::Rapid{*middle}, what + " intermediate point");
-  AxisValues home = run.stored_axes(rule.code == 280 ? number::g28_position : number::g30_position);
-  for (const Axis axis : all_axes)  // the control leaves the length offset of rotary axes out
-    if (!is_rotary(axis)) home[axis] -= run.state.length_offset[axis];
-  // Named axes go to the stored point's program coordinates; with a rotation X and Y mix.
-  AxisValues mixed = to_program(run.state, *middle);
-  const AxisValues there = to_program(run.state, home);
-  for (const Axis axis : all_axes)
-    if (axes.has(axis)) mixed[axis] = there[axis];
-  const AxisValues turned = to_tip(run.state, mixed);
-  const bool in_plane = run.state.rotation != 0 && (axes.has(Axis::x) || axes.has(Axis::y));
-  AxisValues end = *middle;
-  for (const Axis axis : all_axes) {
-    if (axes.empty())
-      end[axis] = home[axis];
-    else if (in_plane && axis <= Axis::y)
-      end[axis] = turned[axis];
-    else if (axes.has(axis))
-      end[axis] = home[axis];
-  }
-  run.emit(canon::Rapid{end}, what + " stored position");
-  run.state.tip = end;
+  rapid_with_indexers(run, *middle, what + " intermediate point");
+  go_to_stored(run, rule.code == 280 ? number::g28_position : number::g30_position, axes,
+               what + " stored position");
 }
 
 void store_home(const CodeRule& rule, BlockRun& run) {
@@ -242,11 +248,42 @@ void use_length_offset(BlockRun& run, const AxisValues& offset, int tool) {
   run.emit(canon::ToolLengthOffset{offset, tool});
 }
 
+namespace {
+
+// With RETAIN_G43 the control takes the offset of the tool in the spindle again before the next
+// line, whatever a code has set.
+void retain_length_offset(const CodeRule& rule, BlockRun& run) {
+  if (!run.session.options.retain_length_offset) return;
+  const tool::Tool* loaded = run.session.tools.find(run.state.tool);
+  const AxisValues kept = loaded ? loaded->offset : AxisValues{};
+  run.state.length_offset_on = loaded != nullptr;
+  if (run.state.length_offset == kept) return;
+  run.warning("retained_offset", run.place(rule),
+              "this machine keeps the length offset of the tool in the spindle (RETAIN_G43); " +
+                  name_of(rule) + " has no lasting effect");
+  use_length_offset(run, kept, run.state.tool);
+}
+
+void end_length_offset(const CodeRule& rule, BlockRun& run) {
+  ModalState& state = run.state;
+  const bool kept = run.session.options.retain_length_offset && state.length_offset_on &&
+                    run.session.tools.find(state.tool) != nullptr;
+  if (kept)
+    return run.warning("retained_offset", run.place(rule),
+                       "this machine keeps the length offset of the tool in the spindle "
+                       "(RETAIN_G43), so G49 has no effect; T0 M6 ends it");
+  state.length_offset_on = false;
+  use_length_offset(run, {});
+}
+
+}  // namespace
+
 void length_offset(const CodeRule& rule, BlockRun& run) {
   if (refuse_with_comp(run, rule)) return;
-  if (rule.code == 490) return use_length_offset(run, {});
+  if (rule.code == 490) return end_length_offset(rule, run);
   if (rule.code == 432 && run.has('H') && !axes_given(run).empty())
     return run.error("axis_conflict", rule, "G43.2 takes H or axis words, not both");
+  run.state.length_offset_on = true;
   AxisValues offset = run.state.length_offset;
   const bool by_axes = rule.code == 431 || (rule.code == 432 && !run.has('H'));
   if (by_axes) {
@@ -264,7 +301,8 @@ void length_offset(const CodeRule& rule, BlockRun& run) {
                   "the axis words of this line set the length offset and are the end of the move "
                   "too; put " +
                       name_of(rule) + " on a line of its own");
-    return use_length_offset(run, offset);
+    use_length_offset(run, offset);
+    return retain_length_offset(rule, run);
   }
   int number = run.state.tool;
   if (run.has('H')) {
@@ -277,8 +315,11 @@ void length_offset(const CodeRule& rule, BlockRun& run) {
     return run.error("tool_unknown", run.has('H') ? run.place('H') : run.place(rule),
                      "tool " + std::to_string(number) + " is not in the tool table");
   const AxisValues of_tool = tool ? tool->offset : AxisValues{};
-  if (rule.code == 432) return use_length_offset(run, offset + of_tool);
-  use_length_offset(run, of_tool, number);
+  if (rule.code == 432)
+    use_length_offset(run, offset + of_tool);
+  else
+    use_length_offset(run, of_tool, number);
+  retain_length_offset(rule, run);
 }
 
 void work_system(const CodeRule& rule, BlockRun& run) {

@@ -15,8 +15,10 @@ void program_end(const CodeRule& rule, BlockRun& run) {
   ModalState& state = run.state;
   run.session.compensator.flush(run);
   state.comp = CompState{};
-  run.set_parameter(number::active_system, 1);
-  load_work_system(run, 1);
+  if (run.session.options.g54_at_end) {
+    run.set_parameter(number::active_system, 1);
+    load_work_system(run, 1);
+  }
   run.emit_work_offset();
   run.emit_rotation();
   if (state.plane != canon::Plane::xy) {
@@ -56,6 +58,9 @@ void program_end(const CodeRule& rule, BlockRun& run) {
 }
 
 void call_fanuc(const CodeRule& rule, BlockRun& run) {
+  if (!run.session.options.fanuc_subs)
+    return run.error("fanuc_subs_off", rule,
+                     "M98 is switched off on this machine (DISABLE_FANUC_STYLE_SUB); use o… call");
   if (!run.has('P')) return run.error("word_missing", rule, "M98 needs P: the number of the sub");
   const auto label = run.integer('P', 0, 999'999'999);
   if (!label) return;
@@ -154,6 +159,7 @@ void restore_offsets(BlockRun& run, const ModalState& saved) {
   if (had_offset != has_offset) {  // G43 without H, or G49
     const tool::Tool* tool = had_offset ? run.session.tools.find(state.tool) : nullptr;
     use_length_offset(run, tool ? tool->offset : AxisValues{}, tool ? state.tool : 0);
+    state.length_offset_on = had_offset;
   }
   if (state.system != saved.system) {
     run.set_parameter(number::active_system, saved.system);

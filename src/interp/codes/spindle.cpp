@@ -11,10 +11,10 @@ struct SpindleRange {
   int first = 0, last = 0;
 };
 
-// `$-1` or, where `all_by_default`, no `$` at all means every spindle.
-std::optional<SpindleRange> spindles_of(BlockRun& run, bool all_by_default) {
+// `$-1` means every spindle, no `$` at all the first.
+std::optional<SpindleRange> spindles_of(BlockRun& run) {
   const int count = run.session.options.spindles;
-  if (!run.has('$')) return all_by_default ? SpindleRange{0, count - 1} : SpindleRange{0, 0};
+  if (!run.has('$')) return SpindleRange{0, 0};
   const auto index = run.integer('$', -1, count - 1, "spindle_unknown");
   if (!index) return std::nullopt;
   if (*index == -1) return SpindleRange{0, count - 1};
@@ -36,7 +36,7 @@ std::optional<int> spindle_of(BlockRun& run, int otherwise) {
 void speed_word(BlockRun& run) {
   const double value = *run.number('S');
   if (value < 0) return run.error("word_value", 'S', "S, the spindle speed, can't be negative");
-  const auto range = spindles_of(run, false);
+  const auto range = spindles_of(run);
   if (!range) return;
   for (int i = range->first; i <= range->last; ++i) {
     SpindleState& spindle = spindle_at(run, i);
@@ -47,7 +47,7 @@ void speed_word(BlockRun& run) {
 }
 
 void spindle_mode(const CodeRule& rule, BlockRun& run) {
-  const auto range = spindles_of(run, false);
+  const auto range = spindles_of(run);
   if (!range) return;
   double limit = 0;
   if (rule.code == 960) {
@@ -64,7 +64,7 @@ void spindle_mode(const CodeRule& rule, BlockRun& run) {
 }
 
 void spindle_turn(const CodeRule& rule, BlockRun& run) {
-  const auto range = spindles_of(run, rule.code == 5);
+  const auto range = spindles_of(run);
   if (!range) return;
   const canon::SpindleTurn turn = rule.code == 3   ? canon::SpindleTurn::clockwise
                                   : rule.code == 4 ? canon::SpindleTurn::counterclockwise
@@ -95,7 +95,8 @@ void spindle_orient(const CodeRule& rule, BlockRun& run) {
   if (!run.has('R') && !run.has('P'))
     return run.warning("word_ignored", run.place(rule),
                        "M19 without R and P does not move the spindle; give R, the angle");
-  run.emit(canon::OrientSpindle{*spindle, run.number_or('R', 0) * radian_per_degree, direction});
+  const double angle = run.number_or('R', 0) + run.session.options.orient_offset;
+  run.emit(canon::OrientSpindle{*spindle, angle * radian_per_degree, direction});
 }
 
 }  // namespace aircut::interp
