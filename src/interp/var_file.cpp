@@ -35,9 +35,16 @@ ParameterFile read_var(const SourceText& text, Diagnostics& out) {
     span.length = static_cast<std::uint32_t>(line.size());
     span.line = ++line_number;
     at = extent.next;
+    const bool blank = line.find_first_not_of(" \t\r") == std::string_view::npos;
     const auto number = parse_number(take_field(line));
     const auto value = parse_number(take_field(line));
-    if (!number || !value) continue;  // the control ignores such lines too
+    if (!number || !value) {
+      if (!blank)
+        out.warning("parameter_line", span,
+                    "the control ignores this line of the parameter file; a line holds a number "
+                    "and a value");
+      continue;
+    }
     const auto index = as_integer(*number);
     if (!index || !Parameters::in_range(*index)) {
       out.error("parameter_range", span,

@@ -133,7 +133,7 @@ std::set<std::string> kinds_of_broken_texts() {
   }
   SourceMap sources;
   Diagnostics diagnostics;
-  interp::read_var(sources.add("a.var", "5221 1\n5161 2\n"), diagnostics);
+  interp::read_var(sources.add("a.var", "5221 1\n5161 2\ntext\n"), diagnostics);
   EXPECT_EQ(diagnostics.errors(), 1u);
   for (const Diagnostic& d : diagnostics.list()) kinds.insert(d.kind);
   return kinds;
