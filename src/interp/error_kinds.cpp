@@ -162,9 +162,9 @@ const std::vector<KindText>& error_kinds() {
        "Only one of a group can act. Example: `G0 G1 X1`, `M7 M8`. Use two lines."},
       {"modal_stack", "M72 without anything saved",
        "M72 restores what M70 saved in the same sub. Example: M72 as the first line."},
-      {"parameter_line", "a line of a parameter file that is ignored",
+      {"parameter_line", "a line of a parameter file that is ignored, wholly or in part",
        "Warning. A line holds a parameter's number and its value; the control passes over anything "
-       "else, so a value that is misspelt stays 0. Example: `5221 1o0`."},
+       "else, so a value that is misspelt stays 0 or is cut. Example: `5221 1o0` gives 1."},
       {"parameter_order", "a parameter file whose numbers do not ascend",
        "Every line of the file holds a number and a value, the numbers ascending. Sort the file."},
       {"parameter_range", "a parameter number that does not exist",

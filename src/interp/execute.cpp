@@ -204,9 +204,10 @@ void BlockExecutor::replace_code(const CodeRule& rule, Place place) {
 }
 
 void BlockExecutor::drop_g80() {
-  const auto last = std::remove_if(items_.begin(), items_.begin() + count_, [](const Item& item) {
-    return item.rule && item.rule->letter == 'G' && item.rule->code == 800;
-  });
+  const auto last =
+      std::remove_if(items_.begin(), items_.begin() + count_, [](const BlockItem& item) {
+        return item.rule && item.rule->letter == 'G' && item.rule->code == 800;
+      });
   count_ = static_cast<std::size_t>(last - items_.begin());
 }
 

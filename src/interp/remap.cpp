@@ -127,7 +127,7 @@ bool remap_arguments(BlockRun& run, RemapCall& call) {
     else if (capital)
       missing += std::string(missing.empty() ? "" : " ") + c;
   }
-  if (line) pass('n', run.block.line);
+  if (line) pass('n', static_cast<double>(run.block.line));
   const double feed_now = run.state.feed, speed_now = run.state.spindles[0].speed;
   if (feed && feed_now > 0) pass('f', feed_now);
   if (speed && speed_now > 0) pass('s', speed_now);

@@ -1,6 +1,8 @@
 // The file of parameters that outlive a program: `number value` per line, in ascending order.
-#include <array>
+#include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "base/text.h"
 #include "interp/interp.h"
@@ -10,13 +12,29 @@
 namespace aircut::interp {
 namespace {
 
-std::string_view take_field(std::string_view& line) {
-  const std::size_t first = line.find_first_not_of(" \t");
-  if (first == std::string_view::npos) return line = {};
-  const std::size_t end = std::min(line.find_first_of(" \t", first), line.size());
-  const std::string_view field = line.substr(first, end - first);
-  line.remove_prefix(end);
-  return field;
+struct VarLine {
+  int number = 0;
+  double value = 0;
+  bool whole = true;  ///< nothing but blanks behind the value
+};
+
+// The control takes an integer, then a number in C's notation, and looks at nothing behind it.
+template <typename T>
+bool take(std::string_view& line, T& value) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
+  if (line.starts_with('+') && !line.starts_with("+-")) line.remove_prefix(1);
+  const auto done = std::from_chars(line.data(), line.data() + line.size(), value);
+  if (done.ec != std::errc()) return false;
+  line.remove_prefix(static_cast<std::size_t>(done.ptr - line.data()));
+  return true;
+}
+
+std::optional<VarLine> read_line(std::string_view line) {
+  VarLine out;
+  if (!take(line, out.number) || !take(line, out.value) || !std::isfinite(out.value))
+    return std::nullopt;
+  out.whole = line.find_first_not_of(" \t\r") == std::string_view::npos;
+  return out;
 }
 
 }  // namespace
@@ -36,29 +54,33 @@ ParameterFile read_var(const SourceText& text, Diagnostics& out) {
     span.line = ++line_number;
     at = extent.next;
     const bool blank = line.find_first_not_of(" \t\r") == std::string_view::npos;
-    const auto number = parse_number(take_field(line));
-    const auto value = parse_number(take_field(line));
-    if (!number || !value) {
-      if (!blank)
-        out.warning("parameter_line", span,
-                    "the control ignores this line of the parameter file; a line holds a number "
-                    "and a value");
+    if (blank) continue;
+    const auto read = read_line(line);
+    if (!read) {
+      out.warning("parameter_line", span,
+                  "the control ignores this line of the parameter file; a line holds a number and "
+                  "a value");
       continue;
     }
-    const auto index = as_integer(*number);
-    if (!index || !Parameters::in_range(*index)) {
-      out.error("parameter_range", span,
-                "there is no parameter #" + shortest(*number) + "; numbers go from 1 to 5601");
+    if (!Parameters::in_range(read->number)) {
+      out.error(
+          "parameter_range", span,
+          "there is no parameter #" + std::to_string(read->number) + "; numbers go from 1 to 5601");
       continue;
     }
-    if (*index <= last) {
+    if (!read->whole)
+      out.warning("parameter_line", span,
+                  "the control reads #" + std::to_string(read->number) + " = " +
+                      shortest(read->value) +
+                      " from this line of the parameter file and ignores the rest of it");
+    if (read->number <= last) {
       out.error("parameter_order", span,
-                "parameter " + std::to_string(*index) + " comes after " + std::to_string(last) +
-                    "; the numbers must ascend");
+                "parameter " + std::to_string(read->number) + " comes after " +
+                    std::to_string(last) + "; the numbers must ascend");
       continue;
     }
-    last = *index;
-    file.values[*index] = *value;
+    last = read->number;
+    file.values[last] = read->value;
   }
   return file;
 }

@@ -105,5 +105,21 @@ TEST(ErrorKinds, TheParameterFileMustAscend) {
   EXPECT_EQ(file.values.at(5161), 1.5);
 }
 
+// The values are those of rs274 for the same lines.
+TEST(ErrorKinds, AValueOfTheParameterFileEndsWhereTheControlEndsIt) {
+  SourceMap sources;
+  Diagnostics out;
+  const std::string text = "5221 1o0\n5222 2 junk\n5223.0 3\n5224x 4\n\n  5225\t7\r\n5226 1e1\n";
+  const auto file = interp::read_var(sources.add("a.var", text), out);
+  EXPECT_EQ(file.values,
+            (std::map<int, double>{{5221, 1}, {5222, 2}, {5223, 0}, {5225, 7}, {5226, 10}}));
+  EXPECT_EQ(out.errors(), 0u);
+  ASSERT_EQ(out.list().size(), 4u);
+  for (std::uint32_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(out.list()[i].kind, "parameter_line");
+    EXPECT_EQ(out.list()[i].span.line, i + 1);
+  }
+}
+
 }  // namespace
 }  // namespace aircut::test
