@@ -16,7 +16,7 @@ struct CodeRule;
 
 /// A word such as `X10`, `G5.1` or `P[#1+2]`.
 struct Word {
-  char letter = 0;  ///< upper case, or one of $ @ ^
+  char letter = 0;  ///< upper case, one of $ @ ^, or a c r for ,A ,C ,R
   Place place;
   Value text;                      ///< as written
   double number = 0;               ///< as evaluated when the block is executed
@@ -62,6 +62,7 @@ enum class Keyword : unsigned char {
   goto_,     ///< GOTO n
   if_goto,   ///< IF [c] GOTO n
   if_then,   ///< IF [c] THEN #1=…
+  if_m99,    ///< [c] M99 P… (Haas)
   while_do,  ///< WHILE [c] DO1, or DO1 alone
   end_,      ///< END1
   output,    ///< DPRNT[…]
@@ -113,10 +114,28 @@ struct Block {
   void clear();
 };
 
-/// 0..25 for A..Z, then $ @ ^.
+/// 0..25 for A..Z, then $ @ ^, then the words with a comma: ,A ,C ,R are the letters a c r.
 constexpr int letter_index(char letter) {
   if (letter >= 'A' && letter <= 'Z') return letter - 'A';
-  return letter == '$' ? 26 : letter == '@' ? 27 : 28;
+  switch (letter) {
+    case '$':
+      return 26;
+    case '@':
+      return 27;
+    case 'a':
+      return 29;
+    case 'c':
+      return 30;
+    case 'r':
+      return 31;
+    default:
+      return 28;  // ^
+  }
+}
+/// As a program writes it: `X`, `,R`.
+inline std::string written(char letter) {
+  if (letter >= 'a' && letter <= 'z') return {',', static_cast<char>(letter - 32)};
+  return std::string(1, letter);
 }
 
 constexpr std::uint32_t letter_bit(char letter) { return 1u << letter_index(letter); }

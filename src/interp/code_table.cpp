@@ -210,6 +210,8 @@ const char* name_of(ModalGroup group) {
       return "mirror image";
     case ModalGroup::scaling:
       return "scaling";
+    case ModalGroup::polar:
+      return "polar coordinates";
     case ModalGroup::turning:
       return "rotation";
     case ModalGroup::free:

@@ -42,6 +42,7 @@ enum class ModalGroup : unsigned char {
   mirror,   ///< G50.1 G51.1
   scaling,  ///< G50 G51
   turning,  ///< G68 G69
+  polar,    ///< G15 G16
   free      ///< may stand beside any other code
 };
 const char* name_of(ModalGroup group);

@@ -42,20 +42,14 @@ const CodeRule* motion_of(BlockRun& run) {
   return motion;
 }
 
-CornerWord corner_of(const BlockRun& run, const CodeRule& motion) {
-  if (run.session.options.dialect != Dialect::linuxcnc) {
-    // On a lathe of Fanuc R and C of a line are the corner at its end; the sign says which way the
-    // next move goes, which is known here.
-    if (motion.code > 10) return {};
-    if (run.has('R')) return {CornerWord::Kind::round, std::fabs(run.length('R'))};
-    if (run.has('C')) return {CornerWord::Kind::chamfer, std::fabs(run.length('C'))};
-    return {};
-  }
+CornerRequest corner_of(BlockRun& run, const CodeRule& motion) {
+  if (run.session.options.dialect != Dialect::linuxcnc) return corner_request(run, motion);
+  CornerRequest request;
   if (const auto radius = run.number('A'); radius && *radius != 0)
-    return {CornerWord::Kind::round, run.length('A')};
-  if (const auto size = run.number('C'); size && *size != 0)
-    return {CornerWord::Kind::chamfer_round, run.length('C')};
-  return {};
+    request.word = {CornerWord::Kind::round, run.length('A')};
+  else if (const auto size = run.number('C'); size && *size != 0)
+    request.word = {CornerWord::Kind::chamfer_round, run.length('C')};
+  return request;
 }
 
 }  // namespace
@@ -71,21 +65,58 @@ void ContourReader::read(BlockRun& run) {
       return run.error("contour_error", letter(axis),
                        std::string("the contour of a turning cycle lies in X and Z; ") +
                            letter(axis) + " can't move in it");
-  if (!run.has('X') && !run.has('Z') && !run.has('U') && !run.has('W')) return;
+  const bool lathe_line = run.session.table.lathe() && motion->code == 10;
+  const auto angle = lathe_line ? line_angle(run) : std::nullopt;
+  if (!run.has('X') && !run.has('Z') && !run.has('U') && !run.has('W') && !angle) return;
   AxisValues program = to_program(state, state.tip);
-  const PlanePoint start{program[Axis::z], program[Axis::x]};
+  PlanePoint start{program[Axis::z], program[Axis::x]};
   PlanePoint end = start;
   if (const auto x = run.axis(Axis::x)) end.v = state.incremental ? start.v + *x : *x;
   if (const auto z = run.axis(Axis::z)) end.u = state.incremental ? start.u + *z : *z;
   if (run.has('U')) end.v = start.v + run.length('U') * (state.lathe_diameter ? 0.5 : 1);
   if (run.has('W')) end.u = start.u + run.length('W');
-  if (run.has('A') && run.session.options.dialect != Dialect::linuxcnc)
-    return run.error("contour_error", 'A',
-                     "a line by its angle (A) can't be read here; give X and Z of its end");
+  if (angle && !place_by_angle(run, *angle, start, end)) return;
+  if (!angle && open_angle_)
+    return run.error("corner_error", run.whole(),
+                     "behind a line with an angle alone stands one with X, Z and an angle");
   add(run, *motion, start, end);
   program[Axis::z] = end.u;
   program[Axis::x] = end.v;
   state.tip = to_tip(state, program);
+}
+
+// What a line's angle says about its end, or about that of the line before it.
+bool ContourReader::place_by_angle(BlockRun& run, double angle, PlanePoint& start,
+                                   PlanePoint& end) {
+  const bool x = run.has('X') || run.has('U'), z = run.has('Z') || run.has('W');
+  const Place place = run.has('a') ? run.place('a') : run.place('A');
+  std::optional<PlanePoint> found;
+  if (open_angle_) {
+    if (run.has('X') && run.has('Z')) found = meeting_point(start, *open_angle_, end, angle);
+    if (found) {
+      contour_.back().end = start = *found;
+      open_angle_.reset();
+      return true;
+    }
+    run.error("corner_error", place,
+              "behind a line with an angle alone stands one with X, Z and an angle, and the two "
+              "lines must meet");
+    return false;
+  }
+  if (!x && !z && run.session.options.dialect == Dialect::fanuc && !contour_.empty()) {
+    open_angle_ = angle;
+    return true;
+  }
+  if (x != z)
+    found = end_under_angle(start, angle, z ? std::optional(end.u) : std::nullopt,
+                            x ? std::optional(end.v) : std::nullopt);
+  if (!found) {
+    run.error("corner_error", place,
+              "a line by its angle has one of X and Z, which it must be able to reach");
+    return false;
+  }
+  end = *found;
+  return true;
 }
 
 void ContourReader::add(BlockRun& run, const CodeRule& rule, PlanePoint start, PlanePoint end) {
@@ -103,7 +134,8 @@ void ContourReader::add(BlockRun& run, const CodeRule& rule, PlanePoint start, P
     return run.error("contour_error", rule,
                      "the first move of a contour leads to its first point; it must be G0 or G1");
   }
-  if (std::hypot(end.u - start.u, end.v - start.v) < 1e-9 && !contour_.empty()) return;
+  if (std::hypot(end.u - start.u, end.v - start.v) < 1e-9 && !contour_.empty() && !open_angle_)
+    return;
   contour_.push_back(piece);
   corners_.push_back(corner_of(run, rule));
   lines_.push_back(run.block.line);
@@ -113,14 +145,24 @@ std::uint64_t ContourReader::line_of(std::size_t piece) const {
   return lines_.empty() ? 0 : lines_[std::min(piece, lines_.size() - 1)];
 }
 
-bool ContourReader::finish(std::string& problem) {
+bool ContourReader::finish(std::string& problem, std::string& doubt) {
+  if (open_angle_) {
+    problem = "the contour ends with a line of which only the angle is given";
+    return false;
+  }
   Contour whole;
   std::vector<std::uint64_t> lines;
   for (std::size_t i = 0; i < contour_.size(); ++i) {
     whole.push_back(contour_[i]);
     lines.push_back(lines_[i]);
-    if (i + 1 == contour_.size() || corners_[i].kind == CornerWord::Kind::none) continue;
-    const auto cut = cut_corner(whole.back(), contour_[i + 1], corners_[i]);
+    const CornerRequest& corner = corners_[i];
+    if (i + 1 == contour_.size() || corner.word.kind == CornerWord::Kind::none) continue;
+    if (const auto wrong = corner_problem(corner, whole.back(), contour_[i + 1], doubt)) {
+      problem = "line " + std::to_string(lines_[i]) + ": " + *wrong;
+      return false;
+    }
+    if (corner.letter != 0 && runs_straight_on(whole.back(), contour_[i + 1])) continue;
+    const auto cut = cut_corner(whole.back(), contour_[i + 1], corner.word);
     if (!cut) {
       problem = "the corner at the end of line " + std::to_string(lines_[i]) +
                 " does not fit on its two moves; use a smaller one";

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "interp/contour.h"
-#include "interp/corner.h"
+#include "interp/held_move.h"
 #include "interp/run.h"
 
 namespace aircut::interp {
@@ -15,8 +15,9 @@ class ContourReader {
  public:
   /// Reads the moves of one executed block. The run's tip follows; nothing is emitted.
   void read(BlockRun& run);
-  /// Cuts the corners. Nothing, with what is wrong and the line, when one does not fit.
-  bool finish(std::string& problem);
+  /// Cuts the corners. False, with what is wrong and the line, when one does not fit; what depends
+  /// on a setting of the control goes to `doubt`.
+  bool finish(std::string& problem, std::string& doubt);
 
   /// The first piece is the way from the start point to the first point.
   const Contour& contour() const { return contour_; }
@@ -25,9 +26,11 @@ class ContourReader {
 
  private:
   void add(BlockRun& run, const CodeRule& rule, PlanePoint start, PlanePoint end);
+  bool place_by_angle(BlockRun& run, double angle, PlanePoint& start, PlanePoint& end);
 
   Contour contour_;
-  std::vector<CornerWord> corners_;  ///< at the end of each piece
+  std::vector<CornerRequest> corners_;  ///< at the end of each piece
+  std::optional<double> open_angle_;    ///< the last piece ends where it meets the next one
   std::vector<std::uint64_t> lines_;
   double feed_ = 0;  ///< of the last F word, mm/min or mm/rev as programmed, 0 without
 };

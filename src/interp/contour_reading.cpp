@@ -102,11 +102,12 @@ void Interpreter::Impl::finish_contour(std::unique_ptr<ContourReading> reading) 
   next_ = state_;
   BlockRun run(session_, done.cycle, next_, *this, queue_);
   run.contour = &done.reader;
-  std::string problem;
-  if (!done.reader.finish(problem))
+  std::string problem, doubt;
+  if (!done.reader.finish(problem, doubt))
     run.error("contour_error", *done.rule, problem);
   else
     done.rule->handler(*done.rule, run);
+  if (!doubt.empty()) run.warning("control_setting", run.place(*done.rule), doubt);
   if (!run.ok()) {
     queue_.resize(first);
     parameters_.roll_back();

@@ -18,7 +18,9 @@ constexpr DialectTraits linuxcnc{.name = "LinuxCNC",
                                  .packed_counts = false,
                                  .full_turn = false,
                                  .local_subs = false,
-                                 .feed_increments = false};
+                                 .feed_increments = false,
+                                 .return_jumps = false,
+                                 .arc_corners = false};
 constexpr DialectTraits fanuc{.name = "Fanuc",
                               .macro_b = true,
                               .active_comments = false,
@@ -34,7 +36,9 @@ constexpr DialectTraits fanuc{.name = "Fanuc",
                               .packed_counts = true,
                               .full_turn = true,
                               .local_subs = false,
-                              .feed_increments = false};
+                              .feed_increments = false,
+                              .return_jumps = false,
+                              .arc_corners = true};
 constexpr DialectTraits haas{.name = "Haas",
                              .macro_b = true,
                              .active_comments = false,
@@ -50,7 +54,9 @@ constexpr DialectTraits haas{.name = "Haas",
                              .packed_counts = false,
                              .full_turn = false,
                              .local_subs = true,
-                             .feed_increments = true};
+                             .feed_increments = true,
+                             .return_jumps = true,
+                             .arc_corners = false};
 
 }  // namespace
 

@@ -29,11 +29,14 @@ struct DialectTraits {
   bool full_turn;          ///< ATAN[y]/[x] gives 0 to 360, ASIN 270 to 90, else both as LinuxCNC
   bool local_subs;         ///< M97 P100 calls the lines from N100
   bool feed_increments;    ///< F without a decimal point counts increments too
+  bool return_jumps;       ///< M99 P goes to a block of the same program, not of the calling one
+  bool arc_corners;        ///< ,R and ,C also between a line and an arc, and between arcs
 };
 
 /// Words that count least increments without a decimal point (macro B); F has its own rule.
 constexpr std::uint32_t increment_letters = axis_letters | letter_bit('I') | letter_bit('J') |
-                                            letter_bit('K') | letter_bit('Q') | letter_bit('R');
+                                            letter_bit('K') | letter_bit('Q') | letter_bit('R') |
+                                            letter_bit('a') | letter_bit('c') | letter_bit('r');
 
 const DialectTraits& traits_of(Dialect dialect);
 

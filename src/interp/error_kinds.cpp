@@ -82,6 +82,10 @@ const std::vector<KindText>& error_kinds() {
        "meant; "
        "write it so that it means the same everywhere. Example: a first move with X alone behind "
        "G68."},
+      {"corner_error", "a corner or a line by its angle that can't be made",
+       "`,R` rounds and `,C` cuts off the corner between a block and the next one, which must be a "
+       "move of G1 to G3 in the same plane and long enough; on lathes R C I K without a comma do "
+       "the same, and `,A` gives a line by its angle. Example: `G1 X10. ,R20.` and then `Y5.`."},
       {"cycle_error", "a canned cycle that can't be carried out",
        "R must lie above the bottom, rotary axes can't move in it, G93 is not possible. Example: "
        "`G81 X1 R-5 Z-1`."},
@@ -182,7 +186,8 @@ const std::vector<KindText>& error_kinds() {
        "A program that begins with a line % must end with one. Add it, or remove the first."},
       {"polar_error", "polar words that can't be used so",
        "@ and ^ need G17, no X Y on the line, and an angle that is defined. Example: `G18 G0 @10 "
-       "^0`."},
+       "^0`. Fanuc: between G16 and G15 the plane's words are radius and angle; both must be "
+       "known."},
       {"probe_error", "a probing move that can't be made",
        "G38 needs G94 and another end than the current point. Example: `G38.2 X0` at X0."},
       {"program_end_missing", "the program does not end",

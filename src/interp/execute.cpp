@@ -280,6 +280,12 @@ bool BlockExecutor::collect() {
   return true;
 }
 
+// On lathes without these axes A is the angle of a G1 line, and C a chamfer at its end.
+bool BlockExecutor::is_corner_word(Axis axis) const {
+  if (!run_.session.table.lathe() || (axis != Axis::a && axis != Axis::c)) return false;
+  return (run_.motion_rule ? run_.motion_rule->code : run_.state.motion) == 10;
+}
+
 bool BlockExecutor::check_axes() {
   if (!(letters_ & axis_letters)) return true;
   const AxisSet present = run_.session.options.axes;
@@ -287,6 +293,7 @@ bool BlockExecutor::check_axes() {
   for (const Axis axis : all_axes) {
     if (present.has(axis) || !run_.has(letter(axis))) continue;
     if (run_.has_increments() && axis >= Axis::u) continue;
+    if (is_corner_word(axis)) continue;
     std::string known;
     for (const Axis other : all_axes)
       if (present.has(other)) known += std::string(known.empty() ? "" : " ") + letter(other);
@@ -360,7 +367,7 @@ bool BlockExecutor::check_words() {
   for (const Word& word : block_.words) {
     if (used & bit(word.letter)) continue;
     run_.error("word_unused", word.place,
-               std::string("no code on this line uses the word ") + word.letter +
+               "no code on this line uses the word " + written(word.letter) +
                    "; remove it or add the code that it belongs to");
     return false;
   }

@@ -15,9 +15,9 @@ constexpr AxisUse none = AxisUse::none, motion = AxisUse::motion, own = AxisUse:
 // clang-format off
 constexpr CodeRule common[] = {
     {'G',   0, G::motion,        P::motion,        motion, "",      rapid},
-    {'G',  10, G::motion,        P::motion,        motion, "",      linear_feed},
-    {'G',  20, G::motion,        P::motion,        motion, "IJKR",  arc},
-    {'G',  30, G::motion,        P::motion,        motion, "IJKR",  arc},
+    {'G',  10, G::motion,        P::motion,        motion, "rc",    linear_feed},
+    {'G',  20, G::motion,        P::motion,        motion, "IJKRrc", arc},
+    {'G',  30, G::motion,        P::motion,        motion, "IJKRrc", arc},
     {'G', 170, G::plane,         P::plane,         none,   "",      select_plane},
     {'G', 180, G::plane,         P::plane,         none,   "",      select_plane},
     {'G', 190, G::plane,         P::plane,         none,   "",      select_plane},
@@ -73,7 +73,7 @@ constexpr CodeRule common[] = {
     {'M',   1, G::stop,          P::stop,          none,   "",      program_stop},
     {'G', 650, G::macro_call,    P::stop,          none,   "PL",    call_macro},
     {'G', 660, G::macro_call,    P::stop,          none,   "PL",    call_macro},
-    {'G', 661, G::macro_call,    P::stop,          none,   "PL",    nullptr},
+    {'G', 661, G::macro_call,    P::stop,          none,   "PL",    call_macro_per_block},
     {'G', 670, G::macro_call,    P::stop,          none,   "",      end_modal_macro},
     {'M',  98, G::stop,          P::stop,          none,   "PL",    call_program},
     {'M', 198, G::stop,          P::stop,          none,   "PL",    call_program},
@@ -103,14 +103,14 @@ constexpr CodeRule mill[] = {
     {'G', 490, G::length_offset,  P::length_offset,  none,   "",      fanuc_length_offset},
     {'G', 920, G::non_modal,      P::non_modal,      own,    "",      coordinate_shift},
     {'G', 921, G::non_modal,      P::non_modal,      own,    "",      preset_work_system},
-    {'G', 150, G::free,           P::control,        none,   "",      accepted},
+    {'G', 150, G::polar,          P::non_modal,      none,   "",      polar_mode},
+    {'G', 160, G::polar,          P::non_modal,      none,   "",      polar_mode},
     {'G', 401, G::free,           P::control,        none,   "",      accepted},
     // Refused, as above.
     {'G',  21, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G',  31, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G',  24, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G',  34, G::free,          P::non_modal,     own,    "",      nullptr},
-    {'G', 160, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G', 330, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G', 370, G::free,          P::non_modal,     own,    "",      nullptr},
     {'G', 412, G::free,          P::non_modal,     own,    "",      nullptr},
@@ -141,6 +141,7 @@ constexpr CodeRule mill[] = {
 };
 
 constexpr CodeRule lathe[] = {
+    {'G',  10, G::motion,        P::motion,        motion, "rcaRIK", linear_feed},
     {'G', 503, G::non_modal,     P::non_modal,     own,    "",      preset_work_system},
     // They move, or change moves, and are not modelled: the line is refused.
     {'G', 360, G::free,          P::non_modal,     own,    "",      nullptr},

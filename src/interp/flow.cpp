@@ -106,6 +106,10 @@ FlowIndex::FlowIndex(const SourceText& source, std::uint64_t begin, bool block_d
   std::uint64_t line_number = 0;
   bool first = true;
   while (begin < text.size()) {
+    if (entries.size() >= max_entries) {
+      overfull_ = true;
+      break;
+    }
     const LineExtent extent = find_line_end(text, begin, &reading);
     const std::string_view line = text.substr(begin, extent.end - begin);
     ++line_number;

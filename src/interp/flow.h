@@ -50,6 +50,11 @@ class FlowIndex {
 
   std::vector<FlowEntry> entries;
 
+  /// True when the file has more of them than are kept; the rest was not read.
+  bool overfull() const { return overfull_; }
+  static constexpr std::size_t max_entries = 2'000'000;   ///< O-words, headers, loops
+  static constexpr std::size_t max_numbered = 8'000'000;  ///< N blocks
+
   /// The entry of the line that begins there, or -1.
   int at(std::uint64_t begin) const;
   /// `oLABEL sub`, or -1.
@@ -84,6 +89,7 @@ class FlowIndex {
   std::set<std::string> used_;  ///< labels of the scope
   std::map<std::string, int, std::less<>> subs_;
   int sub_ = -1;
+  bool overfull_ = false;
   std::vector<NumberedBlock> numbered_;  ///< by program, number, place
 };
 

@@ -23,6 +23,14 @@ FlowIndex& Interpreter::Impl::flow_of(ProgramFile& file) {
   if (!file.flow)
     file.flow = std::make_unique<FlowIndex>(*file.text, file.begin, options_.block_delete,
                                             file.percent, parameters_, table_);
+  if (file.flow->overfull() && !statistics_.limit_reached) {
+    report("limit_reached", {0, block_ ? block_->length : 0},
+           "the program has more than " + std::to_string(FlowIndex::max_numbered) +
+               " N blocks or " + std::to_string(FlowIndex::max_entries) +
+               " O-words, too many to look for a label among them; split it");
+    statistics_.limit_reached = true;
+    stop();
+  }
   return *file.flow;
 }
 

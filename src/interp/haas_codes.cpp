@@ -95,6 +95,8 @@ constexpr CodeRule common[] = {
 };
 
 constexpr CodeRule mill[] = {
+    {'G', 150, G::polar,         P::control,       none,   "",      accepted},
+    {'G', 160, G::polar,         P::non_modal,     own,    "",      nullptr},
     {'G', 1000, G::mirror,       P::non_modal,     own,    "",      mirror_image},
     {'G', 1010, G::mirror,       P::non_modal,     own,    "",      mirror_image},
     // They move, or change moves, and are not modelled: the line is refused.
@@ -113,12 +115,18 @@ constexpr CodeRule mill[] = {
     {'G', 2680, G::free,         P::non_modal,     own,    "",      nullptr},
     {'G', 2690, G::free,         P::non_modal,     own,    "",      nullptr},
 };
+
+// Polar interpolation; on mills these are work systems.
+constexpr CodeRule lathe[] = {
+    {'G', 1120, G::free,         P::non_modal,     own,    "",      nullptr},
+    {'G', 1130, G::free,         P::control,       none,   "",      accepted},
+};
 // clang-format on
 
 }  // namespace
 
 std::span<const CodeRule> haas_rows() { return common; }
 std::span<const CodeRule> haas_mill_rows() { return mill; }
-std::span<const CodeRule> haas_lathe_rows() { return {}; }
+std::span<const CodeRule> haas_lathe_rows() { return lathe; }
 
 }  // namespace aircut::interp

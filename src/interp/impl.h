@@ -80,7 +80,7 @@ struct Frame {
   // macro B
   bool header_seen = false;          ///< the O word of the program that the lines belong to
   bool jumped = false;               ///< some GOTO went back: lines are worth keeping
-  bool modal_call = false;           ///< called by G66
+  std::size_t modal_call = 0;        ///< called by the n-th G66 in force; 0: not by one
   std::int64_t program = 0;          ///< number of the O word
   std::uint64_t call_site = 0;       ///< the calling block
   std::vector<double> locals;        ///< #1-#33 at the begin of a macro call; empty for M98
@@ -185,6 +185,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   ProgramFile* find_program(std::int64_t number, Place place, int& entry);
   ProgramFile* open_program_file(std::int64_t number, Place place, int& entry);
   void modal_macro_call(const BlockRun& run);
+  void change_modal_macros(const FlowRequest& request);
+  std::size_t modal_level() const;
   Block& without_vacant(Block& block);
   void remember_words(const Block& block);
 
@@ -228,6 +230,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   bool is_cascade(const Fault& fault) const;
   void run_block(BlockRun& run, Block& block, const SuspendedBlock* rest = nullptr);
   void remember_failure(const Block& block);
+  void give_up_corner(const Block& block, const std::string& message);
+  void release_corner(const Block& block);
 
   /// What failed blocks would have set: errors that only follow from that are not told.
   struct Unsure {
@@ -267,10 +271,10 @@ class Interpreter::Impl final : public Site, private LiveValues {
   bool break_pending_ = false;  ///< a while loop was left by break: the next do loop runs once
   std::uint64_t idle_blocks_ = 0;
   std::size_t cached_blocks_ = 0;
-  std::optional<ModalMacro> modal_macro_;
-  Block reduced_;                        ///< a block without its vacant words
-  std::array<double, 26> last_words_{};  ///< numbers by letter, for #4107…
-  std::int64_t last_number_ = 0;         ///< of the last N word
+  std::vector<ModalMacro> modal_macros_;  ///< in force, the last G66 last
+  Block reduced_;                         ///< a block without its vacant words
+  std::array<double, 26> last_words_{};   ///< numbers by letter, for #4107…
+  std::int64_t last_number_ = 0;          ///< of the last N word
   Unsure unsure_;
   bool failed_ = false;            ///< some block has failed
   std::vector<int> kept_numbers_;  ///< that the parameter file had
@@ -305,6 +309,7 @@ class BlockExecutor {
   bool find_motion();
   bool check_words();
   bool check_axes();
+  bool is_corner_word(Axis axis) const;
   bool ends_data() const;
   void perform_from(std::size_t first);
   void perform(const BlockItem& item);

@@ -237,7 +237,7 @@ bool Interpreter::Impl::plain_move(const Block& block) {
   if (feeds && (s.feed <= 0 || s.feed_mode != canon::FeedMode::per_minute)) return false;
   if (s.comp.side != CompSide::off || s.comp.leaving || s.rotation != 0 || s.nurbs_points > 0 ||
       s.frame.active() || s.turn_was_left || s.length_suspended || s.data_setting ||
-      s.lathe_diameter || failed_)
+      s.lathe_diameter || s.polar.on || failed_ || session_.held)
     return false;
   AxisValues tip = s.tip;
   const double unit = s.unit_mm();
@@ -320,7 +320,14 @@ void Interpreter::Impl::execute_words(Block& block, const SuspendedBlock* rest) 
     report(*run.fault());
     return remember_failure(block);
   }
+  if (session_.held && !may_follow_corner(block, state_)) {
+    give_up_corner(block,
+                   "behind a corner or a line by its angle the next move of G1, G2 or G3 "
+                   "must follow at once; only a dwell may stand between");
+    if (done_) return;
+  }
   next_ = state_;
+  const std::optional<HeldMove> held_before = session_.held;
   const std::size_t first = queue_.size();
   const bool comp_active = state_.comp.side != CompSide::off || state_.comp.leaving;
   std::optional<Compensator> comp_before;
@@ -333,6 +340,13 @@ void Interpreter::Impl::execute_words(Block& block, const SuspendedBlock* rest) 
     run.roll_back_tools();
     if (comp_before) session_.compensator = std::move(*comp_before);
     session_.nurbs.resize(state_.nurbs_points);
+    session_.held = held_before;
+    if (run.corner_failed()) {
+      give_up_corner(block, run.fault()->message);
+      if (!done_) execute_words(block);
+      return;
+    }
+    if (held_before) release_corner(block);
     if (!follows_from_position(*run.fault(), block)) {
       report(*run.fault());
       remember_failure(block);
@@ -355,7 +369,7 @@ void Interpreter::Impl::execute_words(Block& block, const SuspendedBlock* rest) 
     if (takes_time(queue_[i].action)) idle_blocks_ = 0;
   switch (run.flow.kind) {
     case FlowRequest::Kind::none:
-      if (modal_macro_) modal_macro_call(run);
+      if (!modal_macros_.empty()) modal_macro_call(run);
       break;
     case FlowRequest::Kind::end:
       statistics_.ended = true;
@@ -385,14 +399,8 @@ void Interpreter::Impl::execute_words(Block& block, const SuspendedBlock* rest) 
       call_macro_b(run.flow);
       break;
     case FlowRequest::Kind::modal_call:
-      if (modal_macro_)
-        report("unsupported_code", run.flow.place,
-               "a second G66 before G67 (nested modal calls) is not implemented");
-      else
-        modal_macro_ = ModalMacro{run.flow.label, run.flow.repeats, run.flow.locals};
-      break;
     case FlowRequest::Kind::modal_end:
-      modal_macro_.reset();
+      change_modal_macros(run.flow);
       break;
     case FlowRequest::Kind::contour:
       start_contour(run.flow, *run.flow.cycle);

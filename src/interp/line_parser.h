@@ -50,6 +50,7 @@ class LineParser {
   bool semicolon();
   bool line_number();
   bool word(char letter);
+  bool word_behind(std::uint32_t begin, char letter);
   bool add_word(Word& word);
   bool setting();
   bool oword();
@@ -64,6 +65,9 @@ class LineParser {
   bool program_header();
   bool block_number();
   bool end_of_block();
+  bool comma_word();
+  bool conditional_return();
+  bool returns_only() const;
   bool macro_if(std::uint32_t begin);
   bool macro_goto(std::uint32_t begin, Keyword keyword);
   bool macro_while(std::uint32_t begin);

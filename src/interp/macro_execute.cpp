@@ -15,7 +15,7 @@ namespace {
 
 constexpr int most_told_points = 20;
 
-bool is_rotary_letter(char letter) { return letter >= 'A' && letter <= 'C'; }
+bool is_rotary_letter(char letter) { return (letter >= 'A' && letter <= 'C') || letter == 'a'; }
 
 // The unit of the block: G20 or G21 on it, else the one in force.
 bool in_inches(const BlockRun& run) {
@@ -43,7 +43,7 @@ double feed_divisor(const BlockRun& run, bool inch) {
 void tell_increments(BlockRun& run, const Word& word, double divisor, double number) {
   if (run.session.points_missing >= most_told_points) return;
   const char* unit = is_rotary_letter(word.letter) ? " degrees" : in_inches(run) ? " in" : " mm";
-  const std::string what = std::string(1, word.letter) + shortest(word.text.number);
+  const std::string what = written(word.letter) + shortest(word.text.number);
   run.warning("decimal_point", word.place,
               what + " without a decimal point counts " + shortest(1 / divisor) + unit +
                   ": it is " + shortest(number) + unit + "; write " + what + ". if that is meant");

@@ -33,6 +33,7 @@ void Interpreter::Impl::execute_macro(Block& block) {
       return;
     }
     case Keyword::if_then:
+    case Keyword::if_m99:
       if (is_true(condition(block))) execute_words(block);
       return;
     case Keyword::output:

@@ -95,6 +95,10 @@ void FlowIndex::read_macro_b(const SourceText& source, std::uint64_t begin, bool
   std::uint64_t line_number = 0;
   bool first = true;
   while (begin < text.size()) {
+    if (entries.size() >= max_entries || numbered_.size() >= max_numbered) {
+      overfull_ = true;
+      break;
+    }
     const LineExtent extent = find_line_end(text, begin, &reading);
     const std::string_view line = text.substr(begin, extent.end - begin);
     const std::uint64_t at = std::exchange(begin, extent.next);

@@ -46,7 +46,11 @@ std::optional<Fault> LineParser::parse_macro_b() {
     if (!macro_item()) break;
   const bool statement =
       out_.oword.keyword != Keyword::none && out_.oword.keyword != Keyword::program;
-  if (!fault_ && !out_.words.empty() && (statement || !out_.settings.empty()))
+  const bool conditional = out_.oword.keyword == Keyword::if_m99 && out_.settings.empty();
+  if (!fault_ && conditional && !returns_only())
+    fail("flow_syntax", out_.oword.place.begin, out_.oword.place.length,
+         "behind a condition without IF stands M99 with or without P, e.g. [#1 LT 5] M99 P10");
+  if (!fault_ && !conditional && !out_.words.empty() && (statement || !out_.settings.empty()))
     fail("mixed_block", out_.words.front().place.begin, out_.words.front().place.length,
          "words and a macro statement stand in one block; give each a block of its own");
   if (statement || !out_.settings.empty() || out_.oword.keyword != Keyword::none)
@@ -63,15 +67,44 @@ bool LineParser::macro_item() {
   if (c == 'n') return block_number();
   if (c == '@' || c == '^' || c == '$')
     return fail_here("bad_character", "the character " + quoted(c) + " can't be used here");
-  if (c == ',')
-    return fail_here("bad_character",
-                     "words with a comma (,C and ,R for chamfers and corners) are not supported; "
-                     "decimals are written with a point");
+  if (c == ',') return comma_word();
+  if (c == '[' && table_.dialect().return_jumps) return conditional_return();
   if (c == '/')
     return fail_here("bad_character",
                      "'/' (block skip) inside a block is not supported; put the words that may be "
                      "skipped into a block of their own");
   return item();
+}
+
+// [c] M99 P…: the words of the block count when the condition is true.
+bool LineParser::conditional_return() {
+  const std::uint32_t begin = in_.position();
+  if (!out_.words.empty() || out_.oword.keyword != Keyword::none)
+    return fail_here("bad_character", "a condition stands in front of M99, e.g. [#1 LT 5] M99 P10");
+  out_.oword.keyword = Keyword::if_m99;
+  if (!condition()) return false;
+  out_.oword.place = {begin, in_.length_since(begin)};
+  return true;
+}
+
+bool LineParser::returns_only() const {
+  bool returns = false;
+  for (const Word& word : out_.words) {
+    returns = returns || (word.letter == 'M' && word.text.constant() && word.text.number == 99);
+    if (word.letter != 'P' && word.letter != 'M') return false;
+  }
+  return returns;
+}
+
+// ,R and ,C for corners, ,A for the angle of a line.
+bool LineParser::comma_word() {
+  const std::uint32_t begin = in_.position();
+  in_.advance();
+  const char letter = in_.peek();
+  if (letter == 'a' || letter == 'c' || letter == 'r') return word_behind(begin, letter);
+  return fail_from("bad_character", begin,
+                   "behind a comma stands R, C (a corner) or A (an angle); decimals are written "
+                   "with a point");
 }
 
 // The control takes `;` for the end of the block, so what follows would be another block.

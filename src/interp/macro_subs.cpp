@@ -114,20 +114,47 @@ void Interpreter::Impl::call_macro_b(const FlowRequest& request) {
   push_program(request, (macro ? "G65 P" : "M98 P") + std::to_string(request.label));
 }
 
+// How many of the macros in force count for the block that is executed: the moves of the n-th one's
+// macro call the one before it, those of the program that gave them call the last.
+std::size_t Interpreter::Impl::modal_level() const {
+  for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame)
+    if (frame->modal_call > 0) return frame->modal_call - 1;
+  return modal_macros_.size();
+}
+
+void Interpreter::Impl::change_modal_macros(const FlowRequest& request) {
+  if (modal_level() != modal_macros_.size())
+    return report(
+        "unsupported_code", request.place,
+        "G66 or G67 inside a macro that G66 has called is not implemented; give it in the "
+        "program that calls");
+  if (request.kind == FlowRequest::Kind::modal_end) {
+    if (!modal_macros_.empty()) modal_macros_.pop_back();
+    return;
+  }
+  const auto most = static_cast<std::size_t>(table_.dialect().max_macro_depth);
+  if (modal_macros_.size() >= most) {
+    report("call_depth", request.place,
+           "more than " + std::to_string(most) + " G66 in force at once; give G67 before");
+    statistics_.limit_reached = true;
+    return stop();
+  }
+  modal_macros_.push_back({request.label, request.repeats, request.locals});
+}
+
 void Interpreter::Impl::modal_macro_call(const BlockRun& run) {
-  if (!modal_macro_ || !run.motion_rule || !run.has_axis_words() || run.motion_rule->code == 800)
-    return;
-  // The moves of the macro itself do not call it again.
-  if (std::any_of(frames_.begin(), frames_.end(), [](const Frame& f) { return f.modal_call; }))
-    return;
-  if (modal_macro_->repeats == 0) return;
+  if (!run.motion_rule || !run.has_axis_words() || run.motion_rule->code == 800) return;
+  const std::size_t level = modal_level();
+  if (level == 0) return;
+  const ModalMacro& macro = modal_macros_[level - 1];
+  if (macro.repeats == 0) return;
   FlowRequest request;
-  request.label = modal_macro_->label;
-  request.repeats = modal_macro_->repeats;
-  request.locals = modal_macro_->locals;
+  request.label = macro.label;
+  request.repeats = macro.repeats;
+  request.locals = macro.locals;
   request.place = run.whole();
   if (push_program(request, "G66 P" + std::to_string(request.label)))
-    frames_.back().modal_call = true;
+    frames_.back().modal_call = level;
 }
 
 void Interpreter::Impl::call_local(const FlowRequest& request) {
@@ -149,9 +176,11 @@ void Interpreter::Impl::call_local(const FlowRequest& request) {
   push_frame(std::move(frame), "M97 P" + std::to_string(request.label));
 }
 
-// Back to the caller, to its block N P, or once more. In the main program M99 P is a jump.
+// Back to the caller, to its block N P, or once more. In the main program, and on Haas everywhere,
+// M99 P is a jump.
 void Interpreter::Impl::return_macro_b(const FlowRequest& request) {
-  if (frames_.size() == 1) {
+  const bool jumps = request.block && table_.dialect().return_jumps;
+  if (frames_.size() == 1 || jumps) {
     if (request.block) jump_to_block(*request.block, request.place);
     return;
   }

@@ -75,7 +75,7 @@ std::optional<double> Interpreter::Impl::system_variable(int n, Place place,
   if (n == 3002) return parameters_.stored(n) + blocks / blocks_per_hour;
   if (n == 3000 || within(n, 3003, 3007)) return parameters_.stored(n);
   if (within(n, 4001, 4030))
-    if (const auto code = modal_group(n, state_, modal_macro_.has_value())) return code;
+    if (const auto code = modal_group(n, state_, !modal_macros_.empty())) return code;
   if (within(n, 4101, 4126)) {
     switch (n) {
       case 4109:

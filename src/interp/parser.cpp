@@ -78,12 +78,17 @@ bool LineParser::semicolon() {
 }
 
 bool LineParser::word(char letter) {
-  Word word;
-  word.place.begin = in_.position();
-  word.letter = is_letter(letter) ? static_cast<char>(letter - 32) : letter;
   if (letter == 'n') return fail_here("misplaced_word", "N must be the first word of the line");
   if (letter == 'o')
     return fail_here("misplaced_word", "an O-word must be the first word of the line (after N)");
+  return word_behind(in_.position(), is_letter(letter) ? static_cast<char>(letter - 32) : letter);
+}
+
+// The value of a word that begins at `begin`; the cursor stands on its letter.
+bool LineParser::word_behind(std::uint32_t begin_of_word, char letter) {
+  Word word;
+  word.place.begin = begin_of_word;
+  word.letter = letter;
   in_.advance();
   const std::uint32_t begin = in_.position();
   address_ = word.letter;

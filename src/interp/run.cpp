@@ -29,6 +29,10 @@ std::optional<double> BlockRun::increment(Axis which) const {
 
 std::optional<double> BlockRun::axis(Axis which) const {
   if (has_increments() && which >= Axis::u) return std::nullopt;
+  // A and C of a lathe without these axes are an angle and a corner.
+  if (is_rotary(which) && session.table.lathe() && !session.options.axes.empty() &&
+      !session.options.axes.has(which))
+    return std::nullopt;
   const Word* word = block.find(letter(which));
   if (!word) return std::nullopt;
   if (is_rotary(which)) return word->number * radian_per_degree;
@@ -74,13 +78,15 @@ canon::Command BlockRun::make(canon::Action action, std::string expanded) {
   canon::Command command;
   command.action = std::move(action);
   command.expanded = std::move(expanded);
-  command.span = site_.span();
-  command.block = site_.block_number();
+  command.span = speaks_for_ ? speaks_for_->span : site_.span();
+  command.block = speaks_for_ ? speaks_for_->block : site_.block_number();
   return command;
 }
 
 void BlockRun::emit(canon::Action action, std::string expanded) {
-  if (session.compensator.holds())
+  if (session.held)
+    session.held->waiting.push_back(make(std::move(action), std::move(expanded)));
+  else if (session.compensator.holds())
     session.compensator.hold(make(std::move(action), std::move(expanded)));
   else
     emit_now(std::move(action), std::move(expanded));
@@ -93,9 +99,23 @@ void BlockRun::emit_held(canon::Action action) {
 void BlockRun::emit_now(canon::Action action, std::string expanded) {
   canon::Command& command = out_.emplace_back();
   command.action = std::move(action);
-  command.span = site_.span();
-  command.block = site_.block_number();
+  command.span = speaks_for_ ? speaks_for_->span : site_.span();
+  command.block = speaks_for_ ? speaks_for_->block : site_.block_number();
   if (!expanded.empty()) command.expanded = std::move(expanded);
+}
+
+void BlockRun::pass_on(canon::Command command) {
+  if (session.compensator.holds())
+    session.compensator.hold(std::move(command));
+  else
+    release(std::move(command));
+}
+
+bool BlockRun::fail_corner(std::string message) {
+  if (fault_) return false;
+  corner_failed_ = true;
+  error("corner_error", whole(), std::move(message));
+  return false;
 }
 
 void BlockRun::emit_work_offset() { emit(canon::WorkOffset{state.system, state.work_offset}); }

@@ -11,6 +11,7 @@
 #include "interp/block.h"
 #include "interp/code_table.h"
 #include "interp/compensation.h"
+#include "interp/held_move.h"
 #include "interp/interp.h"
 #include "interp/offset_memory.h"
 #include "interp/parameters.h"
@@ -33,6 +34,7 @@ struct Session {
   OffsetMemory offsets{};               ///< Fanuc, Haas
   AxisValues skip_position{};           ///< of the last G31, with the tool offset: work coordinates
   RemapSet remaps{};
+  std::optional<HeldMove> held{};       ///< waits for the next block's move
 };
 
 /// What a block asks of the flow of control once it has succeeded.
@@ -176,6 +178,16 @@ class BlockRun {
   void emit_held(canon::Action action);
   /// Appends a command that has its place already.
   void release(canon::Command command) { out_.push_back(std::move(command)); }
+  /// The same, behind a move that radius compensation holds back.
+  void pass_on(canon::Command command);
+  /// A command without an action that says where this block stands.
+  canon::Command head() { return make({}, {}); }
+  /// What is emitted from now on belongs to that block; null: to this one.
+  void speak_for(const canon::Command* other) { speaks_for_ = other; }
+  /// The corner in front of this block can't be made. False.
+  bool fail_corner(std::string message);
+  /// Whether the fault is that of the corner, and not of the block.
+  bool corner_failed() const { return corner_failed_; }
 
   // ---- offsets and position, kept in step
   /// Emits the three commands of the work system in force.
@@ -206,6 +218,8 @@ class BlockRun {
   std::vector<tool::Tool> old_tools_;
   std::optional<OffsetMemory> old_offsets_;
   bool axis_words_ = false;
+  bool corner_failed_ = false;
+  const canon::Command* speaks_for_ = nullptr;
 };
 
 }  // namespace aircut::interp

@@ -57,6 +57,13 @@ struct SplineMemory {
   double dx = 0, dy = 0;  ///< end − second control point of the last G5
 };
 
+/// G16: the words of the plane are a radius and an angle.
+struct PolarState {
+  bool on = false;
+  /// Of the last words since G16; rad, mm.
+  std::optional<double> angle, radius;  ///< the radius only when it counts from the zero point
+};
+
 enum class CompSide : unsigned char { off, left, right };
 
 struct CompState {
@@ -76,6 +83,7 @@ struct ModalState {
   AxisValues g92;          ///< in force; on Fanuc the local shift (G52) is part of it
   AxisValues local_shift;  ///< G52 of Fanuc
   ProgramFrame frame;      ///< G51.1 G51 G68 of Fanuc
+  PolarState polar;        ///< G16 of Fanuc
   /// G68: the program coordinates from before it, until the first move in its plane.
   bool turn_is_fresh = false;
   AxisValues before_turn;

@@ -216,7 +216,7 @@ TEST(FanucCodes, ControlThePath) {
 }
 
 TEST(FanucCodes, AreAcceptedWhenTheyMoveNothing) {
-  for (const char* line : {"G9", "G5.1 Q1", "G8 P1", "G15", "G13.1", "G22 X1. Y1. Z1. I0 J0 K0",
+  for (const char* line : {"G9", "G5.1 Q1", "G8 P1", "G13.1", "G22 X1. Y1. Z1. I0 J0 K0",
                            "G23", "G25", "G26", "G113", "G40.1"}) {
     EXPECT_EQ(kinds_of(line, fanuc, Severity::info), std::vector<std::string>{"code_accepted"})
         << line;
@@ -229,7 +229,7 @@ TEST(FanucCodes, AreAcceptedWhenTheyMoveNothing) {
 }
 
 TEST(FanucCodes, AreRefusedWhenTheyMoveAndAreNotModelled) {
-  for (const char* line : {"G5 X1.", "G6.2", "G7.1 C10.", "G107", "G12.1", "G112", "G16",
+  for (const char* line : {"G5 X1.", "G6.2", "G7.1 C10.", "G107", "G12.1", "G112",
                            "G68.2 X0 Y0 Z0 I0 J0 K0", "G43.4 H1", "G43.5 H1", "G47", "G53.1",
                            "G51.2", "G45 X1.", "G2.1", "G68 X0 Y0 Z0 I0 J0 K1. R30."})
     EXPECT_EQ(kinds_of(line, fanuc, Severity::error), std::vector<std::string>{"unsupported_code"})

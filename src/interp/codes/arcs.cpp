@@ -9,6 +9,7 @@
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
+#include "interp/held_move.h"
 
 namespace aircut::interp {
 namespace {
@@ -198,10 +199,7 @@ void arc(const CodeRule& rule, BlockRun& run) {
   move.arc.normal = plane_normal(state);
   move.arc.turns = (rule.code == 30) != swaps_sides(state) ? turns : -turns;
   move.arc.plane = state.plane;
-  if (state.comp.side != CompSide::off || state.comp.leaving)
-    return run.session.compensator.move(run, move);
-  run.emit(move.arc);
-  state.tip = move.end;
+  make_move(run, rule, move);
 }
 
 }  // namespace aircut::interp

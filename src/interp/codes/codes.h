@@ -92,6 +92,8 @@ void scaling(const CodeRule&, BlockRun&);
 void mirror_image(const CodeRule&, BlockRun&);
 void rotation_on(const CodeRule&, BlockRun&);
 void rotation_off(const CodeRule&, BlockRun&);
+// fanuc_polar.cpp
+void polar_mode(const CodeRule&, BlockRun&);
 // spindle.cpp
 void spindle_mode(const CodeRule&, BlockRun&);
 void spindle_turn(const CodeRule&, BlockRun&);
@@ -125,6 +127,7 @@ void call_local_sub(const CodeRule&, BlockRun&);
 void return_from_program(const CodeRule&, BlockRun&);
 void call_macro(const CodeRule&, BlockRun&);
 void end_modal_macro(const CodeRule&, BlockRun&);
+void call_macro_per_block(const CodeRule&, BlockRun&);
 // program.cpp
 void program_stop(const CodeRule&, BlockRun&);
 void program_end(const CodeRule&, BlockRun&);
@@ -147,6 +150,11 @@ std::optional<int> spindle_of(BlockRun& run, int otherwise);
 std::optional<AxisValues> target_of(BlockRun& run);
 /// Moves the point (program coordinates) to where @ and ^ put it; false with an error.
 bool apply_polar(BlockRun& run, double& x, double& y);
+/// G16: moves the point (program coordinates) to where radius and angle put it, seen from `from`;
+/// false with an error.
+bool place_polar(BlockRun& run, const AxisValues& from, AxisValues& program);
+/// False with an error when the line's words could be polar, and nobody knows.
+bool polar_is_off(BlockRun& run, const CodeRule& rule);
 /// Centre of the arc that I J K or R of the line mean, in the axes of the plane and program
 /// coordinates, or nothing with an error. `rule` is that of G2 or G3.
 std::optional<PlanePoint> arc_centre(BlockRun& run, const CodeRule& rule, PlanePoint start,

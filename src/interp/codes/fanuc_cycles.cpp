@@ -35,6 +35,7 @@ class FanucCycle : private HoleMotion {
   bool store_words();
   bool words_fit();
   std::optional<int> repeats();
+  bool hole_place(double& a, double& b);
   bool spindle_fits();
   bool levels();
   bool count_moves(int repeats);
@@ -200,10 +201,23 @@ void FanucCycle::execute() {
   if (!ready() || !count_moves(*count)) return;
   for (int i = 1; i <= *count && run_.ok(); ++i) {
     double a = a_, b = b_;
-    if (const auto value = run_.axis(axes_.first)) a = state_.incremental ? a_ + *value : *value;
-    if (const auto value = run_.axis(axes_.second)) b = state_.incremental ? b_ + *value : *value;
-    at(a, b, i, *count);
+    if (hole_place(a, b)) at(a, b, i, *count);
   }
+}
+
+// Where the words put the next hole.
+bool FanucCycle::hole_place(double& a, double& b) {
+  if (state_.polar.on) {
+    const AxisValues from = to_program(state_, state_.tip);
+    AxisValues to = from;
+    if (!place_polar(run_, from, to)) return false;
+    a = to[axes_.first];
+    b = to[axes_.second];
+    return true;
+  }
+  if (const auto value = run_.axis(axes_.first)) a = state_.incremental ? a_ + *value : *value;
+  if (const auto value = run_.axis(axes_.second)) b = state_.incremental ? b_ + *value : *value;
+  return true;
 }
 
 void FanucCycle::at(double a, double b, int number, int count) {

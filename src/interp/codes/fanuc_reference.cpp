@@ -94,7 +94,7 @@ void fanuc_machine_coordinates(const CodeRule& rule, BlockRun& run) {
 }
 
 void fanuc_home(const CodeRule& rule, BlockRun& run) {
-  if (!check_axes(run, rule)) return;
+  if (!check_axes(run, rule) || !polar_is_off(run, rule)) return;
   int n = 1;
   if (rule.code == 300) {
     n = 2;
@@ -122,7 +122,7 @@ void fanuc_home(const CodeRule& rule, BlockRun& run) {
 
 // G29: by way of G28's intermediate point to the words.
 void return_from_home(const CodeRule& rule, BlockRun& run) {
-  if (!check_axes(run, rule)) return;
+  if (!check_axes(run, rule) || !polar_is_off(run, rule)) return;
   ModalState& state = run.state;
   if (!state.way_point)
     return run.error("reference_error", rule,
@@ -145,7 +145,7 @@ void return_from_home(const CodeRule& rule, BlockRun& run) {
 
 // G27: rapid to the words, which must be the reference point.
 void check_home(const CodeRule& rule, BlockRun& run) {
-  if (!check_axes(run, rule)) return;
+  if (!check_axes(run, rule) || !polar_is_off(run, rule)) return;
   const auto point = reference_point(rule, run, 1);
   const auto end = target_of(run);
   if (!point || !end) return;
@@ -166,7 +166,7 @@ void check_home(const CodeRule& rule, BlockRun& run) {
 void skip_move(const CodeRule& rule, BlockRun& run) {
   if (!run.has_axis_words())
     return run.error("axis_word_missing", rule, name_of(rule) + " needs at least one axis word");
-  if (!comp_is_off(run, rule) || !feed_is_set(run, rule)) return;
+  if (!comp_is_off(run, rule) || !feed_is_set(run, rule) || !polar_is_off(run, rule)) return;
   const auto end = target_of(run);
   if (!end) return;
   canon::Probe move;

@@ -47,7 +47,7 @@ bool arguments_of(BlockRun& run, std::vector<double>& locals) {
     int variable = at < 0 ? 0 : variable_of[static_cast<std::size_t>(at)];
     if (variable == 0) {
       run.error("word_unused", word.place,
-                std::string(1, word.letter) + " can't be an argument of a macro");
+                written(word.letter) + " can't be an argument of a macro");
       return false;
     }
     if (word.letter >= 'I' && word.letter <= 'K') {
@@ -113,6 +113,13 @@ void call_macro(const CodeRule& rule, BlockRun& run) {
   if (!repeats || !arguments_of(run, run.flow.locals)) return;
   run.flow.repeats = *repeats;
   run.flow.kind = rule.code == 650 ? FlowRequest::Kind::macro_call : FlowRequest::Kind::modal_call;
+}
+
+// The manuals do not say alike whether the line with G66.1 calls too, and what its codes then do.
+void call_macro_per_block(const CodeRule& rule, BlockRun& run) {
+  run.error("unsupported_code", rule,
+            "G66.1 hands every block to a macro instead of executing it, which is not implemented; "
+            "call the macro with G65 in each block");
 }
 
 void end_modal_macro(const CodeRule&, BlockRun& run) {

@@ -31,6 +31,9 @@ void select_plane(const CodeRule& rule, BlockRun& run) {
   if (run.state.frame.turned && plane != run.state.plane)
     return run.error("frame_error", rule,
                      "the plane can't be changed while G68 turns it; give G69 before");
+  if (run.state.polar.on && plane != run.state.plane)
+    return run.error("polar_error", rule,
+                     "the plane can't be changed between G16 and G15; give G15 before");
   run.state.plane = plane;
   run.emit_now(canon::SelectPlane{plane});  // with radius compensation it is the plane in force
 }

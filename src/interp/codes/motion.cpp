@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
+#include "interp/held_move.h"
 
 namespace aircut::interp {
 // @ is the distance from the origin of the program, ^ the angle (interp.md 8). A missing part keeps
@@ -76,7 +77,8 @@ std::optional<AxisValues> named_target(BlockRun& run) {
   }
   const AxisValues& start = state.programmed_tip();
   const bool polar = run.has('@') || run.has('^');
-  if (state.rotation == 0 && !state.frame.active() && !state.turn_was_left && !polar) {
+  if (state.rotation == 0 && !state.frame.active() && !state.turn_was_left && !polar &&
+      !state.polar.on) {
     AxisValues tip = start;
     for (const Axis axis : all_axes) {
       if (const auto by = run.increment(axis)) tip[axis] += *by;
@@ -103,6 +105,12 @@ std::optional<AxisValues> named_target(BlockRun& run) {
     if (!apply_polar(run, program[Axis::x], program[Axis::y])) return std::nullopt;
     named.add(Axis::x);
     named.add(Axis::y);
+  }
+  const PlaneAxes axes = axes_of(state.plane);
+  if (state.polar.on && (named.has(axes.first) || named.has(axes.second))) {
+    if (!place_polar(run, to_program(state, start), program)) return std::nullopt;
+    named.add(axes.first);
+    named.add(axes.second);
   }
   if (!first_move_in_frame(run, named, program)) return std::nullopt;
   AxisValues tip = to_tip(state, program);
@@ -157,12 +165,9 @@ void rapid(const CodeRule&, BlockRun& run) {
 
 void linear_feed(const CodeRule& rule, BlockRun& run) {
   if (!feed_is_set(run, rule)) return;
-  const auto end = target_of(run);
-  if (!end) return;
-  if (run.state.comp.side != CompSide::off || run.state.comp.leaving)
-    return run.session.compensator.move(run, {PlannedMove::Kind::feed, *end, {}});
-  run.emit(canon::LinearFeed{*end});
-  run.state.tip = *end;
+  if (const auto angle = run.session.table.lathe() ? line_angle(run) : std::nullopt)
+    return line_by_angle(rule, run, *angle);
+  if (const auto end = target_of(run)) make_move(run, rule, {PlannedMove::Kind::feed, *end, {}});
 }
 
 void cancel_motion(const CodeRule&, BlockRun&) {}
