@@ -1,0 +1,402 @@
+// Cutting: which bricks a piece concerns, and in which order.
+//
+// Pieces are taken in batches. A batch is binned to the columns of bricks under its pieces; a
+// column is one thread's. In each column, first the Z rays in program order, so that what a Z ray
+// loses is credited to the move that takes it first; then the X and Y rays, the deepest pieces
+// first, because then most of the others find nothing left. A brick is skipped when a bound proves
+// that none of this family's rays can change, and emptied at once when a bound proves that all of
+// it is taken. Both bounds keep more margin than the kernels' rounding and look at one family only:
+// so the material that is left doesn't depend on order, batch or threads.
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <thread>
+#include <unordered_map>
+
+#include "stock/impl.h"
+#include "stock/row.h"
+
+namespace aircut::stock {
+namespace {
+
+constexpr double margin = 1e-5;  // mm, more than the kernels' rounding
+
+/// Sums of one thread: what each slot lost on Z rays.
+struct Sums {
+  std::vector<std::int64_t> quanta;
+  std::ptrdiff_t bytes = 0;
+};
+
+class ColumnCutter {
+ public:
+  ColumnCutter(Stock::Impl& stock, int i, int j, Sums& sums)
+      : stock_(stock), i_(i), j_(j), sums_(sums), top_(stock.tops[column()]) {}
+
+  void cut(const std::vector<const Sweep*>& sweeps) {
+    std::vector<Work> work;
+    for (const Sweep* sweep : sweeps) {
+      ColumnSweep column = ColumnSweep::of(*sweep, lattice(), i_, j_);
+      if (column.touches()) work.push_back({column, sweep->slot});
+    }
+    for (const Work& w : work) cut_z(w);
+    std::stable_sort(work.begin(), work.end(), [](const Work& a, const Work& b) {
+      return std::pair(!a.sweep.covers, a.sweep.covers ? a.sweep.cover_floor : a.sweep.nearest) <
+             std::pair(!b.sweep.covers, b.sweep.covers ? b.sweep.cover_floor : b.sweep.nearest);
+    });
+    for (const Work& w : work) cut_sides(w);
+  }
+
+ private:
+  struct Work {
+    ColumnSweep sweep;
+    std::size_t slot;
+  };
+
+  const Lattice& lattice() const { return stock_.lattice; }
+  std::size_t column() const { return static_cast<std::size_t>(j_) * lattice().bricks[0] + i_; }
+  BrickSlot& slot(int k) { return stock_.table[lattice().index(i_, j_, k)]; }
+
+  /// Calls f(k, bottom) from the top down for the bricks that the sweep may reach.
+  template <class F>
+  void each_brick(const ColumnSweep& sweep, F f) {
+    const double size = lattice().brick_size();
+    while (top_ > 0 && slot(top_ - 1).is(BrickSlot::empty)) --top_;
+    for (int k = top_ - 1; k >= 0; --k) {
+      const double bottom = k * size;
+      if (bottom + size < sweep.floor) break;
+      if (bottom > sweep.roof || slot(k).is(BrickSlot::empty)) continue;
+      f(k, bottom);
+    }
+  }
+
+  /// The brick to be cut; one that was full is put into the table only when it changed.
+  Brick& take_out(int k) {
+    BrickSlot& s = slot(k);
+    if (s.is(BrickSlot::untouched)) {
+      s.set(fill(stock_.solid, lattice(), i_, j_, k));
+      sums_.bytes += static_cast<std::ptrdiff_t>(s.brick()->bytes());
+    }
+    if (Brick* brick = s.brick()) return *brick;
+    if (!fresh_) {
+      fresh_ = std::make_unique<Brick>();
+      for (RayFamily& family : fresh_->family) family.full.fill(0xffff);
+    }
+    return *fresh_;
+  }
+
+  void put_back(int k, bool changed, std::size_t bytes_before) {
+    if (!changed) return;
+    BrickSlot& s = slot(k);
+    if (!s.brick()) {
+      s.set(std::move(fresh_));
+      bytes_before = 0;
+    }
+    sums_.bytes += static_cast<std::ptrdiff_t>(s.brick()->bytes() - bytes_before);
+    const Brick& brick = *s.brick();
+    if (brick.z_top == 0 && brick.rows[0] == 0 && brick.rows[1] == 0) drop(k);
+  }
+
+  void drop(int k) {
+    if (const Brick* brick = slot(k).brick())
+      sums_.bytes -= static_cast<std::ptrdiff_t>(brick->bytes());
+    slot(k).set(BrickSlot::empty);
+  }
+
+  void take_whole(int k, std::size_t who) {
+    std::int64_t quanta = std::int64_t{rays} * brick_quanta;
+    if (!slot(k).is(BrickSlot::full)) quanta = take_out(k).family[2].quanta();
+    sums_.quanta[who] += quanta;
+    drop(k);
+  }
+
+  void cut_z(const Work& work) {
+    const ColumnSweep& sweep = work.sweep;
+    const double size = lattice().brick_size();
+    each_brick(sweep, [&](int k, double bottom) {
+      if (sweep.takes_all(bottom, bottom + size)) return take_whole(k, work.slot);
+      Brick& brick = take_out(k);
+      if (sweep.floor > bottom + (brick.z_top + 1) * lattice().quantum()) return;
+      const std::size_t bytes = brick.bytes();
+      RayFamily& family = brick.family[2];
+      const LocalSweep local = sweep.in_brick(lattice(), k);
+      bool changed = false;
+      for (int row = 0; row < cells; ++row) {
+        if (family.row_empty(row)) continue;
+        kernels_.upright(local, row, chords_);
+        const RowLoss loss = take_row(family, local, Family::z, row, chords_, kernels_);
+        sums_.quanta[work.slot] += loss.quanta;
+        changed = changed || loss.changed;
+      }
+      if (changed) brick.z_top = family.top();
+      put_back(k, changed, bytes);
+    });
+  }
+
+  void cut_sides(const Work& work) {
+    each_brick(work.sweep, [&](int k, double bottom) {
+      Brick& brick = take_out(k);
+      const std::size_t bytes = brick.bytes();
+      const LocalSweep local = work.sweep.in_brick(lattice(), k);
+      bool changed = false;
+      for (const Family f : {Family::x, Family::y})
+        changed = cut_family(brick, f, work.sweep, local, bottom) || changed;
+      put_back(k, changed, bytes);
+    });
+  }
+
+  bool cut_family(Brick& brick, Family f, const ColumnSweep& sweep, const LocalSweep& local,
+                  double bottom) {
+    RayFamily& family = brick.family[static_cast<std::size_t>(index_of(f))];
+    int& rows = brick.rows[static_cast<std::size_t>(index_of(f))];
+    bool changed = false, walls_known = false;
+    for (int row = 0; row < rows; ++row) {
+      const double z = bottom + (row + 0.5) * lattice().pitch;
+      if (z < sweep.floor) continue;
+      if (z > sweep.roof) break;
+      if (family.row_empty(row)) continue;
+      // All rows that see only the straight wall have the same chords.
+      const bool wall = sees_only_wall(local, row);
+      if (wall && !walls_known) kernels_.level(local, f, row, walls_);
+      walls_known = walls_known || wall;
+      if (!wall) kernels_.level(local, f, row, chords_);
+      const Chords& chords = wall ? walls_ : chords_;
+      changed = take_row(family, local, f, row, chords, kernels_).changed || changed;
+    }
+    if (changed)
+      while (rows > 0 && family.row_empty(rows - 1)) --rows;
+    return changed;
+  }
+
+  bool sees_only_wall(const LocalSweep& local, int row) const {
+    const double z = (row + 0.5) * local.pitch - local.foot[2];
+    const double za = z - local.slope * local.s0, zb = z - local.slope * local.s1;
+    return std::min(za, zb) - local.rise >= local.shape->wall_low &&
+           std::max(za, zb) <= local.shape->wall_high;
+  }
+
+  Stock::Impl& stock_;
+  int i_, j_;
+  Sums& sums_;
+  int& top_;
+  const Kernels& kernels_ = kernels();
+  std::unique_ptr<Brick> fresh_;
+  Chords chords_, walls_;
+};
+
+/// The columns under a batch of sweeps, each with its sweeps in order.
+struct Bins {
+  std::vector<std::size_t> columns;
+  std::unordered_map<std::size_t, std::vector<const Sweep*>> sweeps;
+};
+
+/// Calls f(i, j) for the columns under the box of a sweep.
+template <class F>
+void each_column(const Sweep& sweep, const Lattice& lattice, F f) {
+  int from[2], to[2];
+  for (int a = 0; a < 2; ++a) {
+    const double r = sweep.outline->radius() + margin, size = lattice.brick_size();
+    const double low = std::min(sweep.start[a], sweep.end[a]) - r;
+    const double high = std::max(sweep.start[a], sweep.end[a]) + r;
+    const double last = lattice.bricks[static_cast<std::size_t>(a)] - 1;
+    if (high < 0 || low > (last + 1) * size) return;
+    from[a] = static_cast<int>(std::clamp(std::floor(low / size), 0.0, last));
+    to[a] = static_cast<int>(std::clamp(std::floor(high / size), 0.0, last));
+  }
+  for (int j = from[1]; j <= to[1]; ++j)
+    for (int i = from[0]; i <= to[0]; ++i) f(i, j);
+}
+
+Bins bin(std::span<const Sweep> sweeps, const Lattice& lattice) {
+  Bins out;
+  for (const Sweep& sweep : sweeps)
+    each_column(sweep, lattice, [&](int i, int j) {
+      const std::size_t column = static_cast<std::size_t>(j) * lattice.bricks[0] + i;
+      auto& list = out.sweeps[column];
+      if (list.empty()) out.columns.push_back(column);
+      list.push_back(&sweep);
+    });
+  std::sort(out.columns.begin(), out.columns.end());
+  return out;
+}
+
+void cut_batch(Stock::Impl& stock, std::span<const Sweep> sweeps, std::vector<Removal>& rows) {
+  const Bins bins = bin(sweeps, stock.lattice);
+  const unsigned threads = std::max(stock.options.threads, 1u);
+  std::vector<Sums> sums(threads);
+  for (Sums& s : sums) s.quanta.assign(rows.size(), 0);
+  for_each_index(bins.columns.size(), threads, [&](std::size_t n, unsigned thread) {
+    const std::size_t column = bins.columns[n], width = stock.lattice.bricks[0];
+    ColumnCutter(stock, static_cast<int>(column % width), static_cast<int>(column / width),
+                 sums[thread])
+        .cut(bins.sweeps.at(column));
+  });
+  for (const Sums& s : sums) {
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i].quanta += s.quanta[i];
+    stock.brick_bytes += static_cast<std::size_t>(s.bytes);
+  }
+}
+
+/// What a sweep would take, family by family.
+class Toucher {
+ public:
+  explicit Toucher(const Stock::Impl& stock) : stock_(stock) {}
+
+  void touch(const Sweep& sweep) {
+    each_column(sweep, stock_.lattice, [&](int i, int j) {
+      const ColumnSweep column = ColumnSweep::of(sweep, stock_.lattice, i, j);
+      if (!column.touches()) return;
+      const double size = stock_.lattice.brick_size();
+      const std::size_t at = static_cast<std::size_t>(j) * stock_.lattice.bricks[0] + i;
+      for (int k = stock_.tops[at] - 1; k >= 0; --k) {
+        if ((k + 1) * size < column.floor) break;
+        if (k * size <= column.roof) touch_brick(column, i, j, k);
+      }
+    });
+  }
+
+  Touch result() const {
+    Touch out = worst_;
+    const std::int64_t most = std::max({quanta_[0], quanta_[1], quanta_[2]});
+    out.volume = static_cast<double>(most) * stock_.lattice.quantum() * stock_.lattice.pitch *
+                 stock_.lattice.pitch;
+    return out;
+  }
+
+ private:
+  void touch_brick(const ColumnSweep& sweep, int i, int j, int k) {
+    const BrickSlot& slot = stock_.table[stock_.lattice.index(i, j, k)];
+    if (slot.is(BrickSlot::empty)) return;
+    std::unique_ptr<Brick> scratch;
+    const Brick* brick = stock_.look(i, j, k, scratch);
+    static const Brick solid = [] {
+      Brick all;
+      for (RayFamily& family : all.family) family.full.fill(0xffff);
+      return all;
+    }();
+    if (!brick) {
+      brick = &solid;
+    }
+    const LocalSweep local = sweep.in_brick(stock_.lattice, k);
+    Chords chords;
+    for (const Family f : families) {
+      const RayFamily& family = brick->family[static_cast<std::size_t>(index_of(f))];
+      for (int row = 0; row < cells; ++row) {
+        if (family.row_empty(row)) continue;
+        if (f == Family::z)
+          kernels().upright(local, row, chords);
+        else
+          kernels().level(local, f, row, chords);
+        note(f, touch_row(family, row, chords), i, j, k);
+      }
+    }
+  }
+
+  void note(Family f, const RowTouch& row, int i, int j, int k) {
+    quanta_[static_cast<std::size_t>(index_of(f))] += row.quanta;
+    const Lattice& lattice = stock_.lattice;
+    const double depth = row.deepest * lattice.quantum();
+    if (!(depth > worst_.depth)) return;
+    worst_.depth = depth;
+    const double along = row.middle * lattice.quantum();
+    const double lane = (row.ray % cells + 0.5) * lattice.pitch;
+    const double line = (row.ray / cells + 0.5) * lattice.pitch;
+    Vec3 p(along, lane, line);
+    if (f == Family::y) p = {lane, along, line};
+    if (f == Family::z) p = {lane, line, along};
+    worst_.point = lattice.origin + lattice.brick_size() * Vec3(i, j, k) + p;
+  }
+
+  const Stock::Impl& stock_;
+  std::array<std::int64_t, 3> quanta_{};
+  Touch worst_;
+};
+
+}  // namespace
+
+Expected<void> supported(std::span<const Piece> pieces) {
+  for (const Piece& piece : pieces) {
+    if (!piece.start.allFinite() || !piece.end.allFinite())
+      return unexpected(make_error("stock_unsupported", "a cutter's position is not a number"));
+    if ((piece.axis - Vec3::UnitZ()).norm() > 1e-12)
+      return unexpected(make_error("stock_unsupported",
+                                   "removing material with a tool axis that is not the stock's Z "
+                                   "is not modelled"));
+  }
+  return {};
+}
+
+void for_each_index(std::size_t n, unsigned threads,
+                    const std::function<void(std::size_t, unsigned)>& f) {
+  if (threads <= 1 || n <= 1) {
+    for (std::size_t i = 0; i < n; ++i) f(i, 0);
+    return;
+  }
+  std::atomic<std::size_t> next{0};
+  std::vector<std::thread> workers;
+  for (unsigned t = 0; t < threads; ++t)
+    workers.emplace_back([&, t] {
+      for (std::size_t i = next++; i < n; i = next++) f(i, t);
+    });
+  for (std::thread& worker : workers) worker.join();
+}
+
+Expected<std::vector<Removal>> Stock::cut(std::span<const Piece> pieces) {
+  if (auto ok = supported(pieces); !ok) return unexpected(ok.error());
+  std::vector<Removal> out, rows;
+  std::unordered_map<std::uint32_t, std::size_t> out_of, row_of;
+  std::vector<Sweep> sweeps;
+  const std::size_t batch = std::max<std::size_t>(impl_->options.batch, 1);
+  while (!pieces.empty()) {
+    const auto part = pieces.first(std::min(batch, pieces.size()));
+    pieces = pieces.subspan(part.size());
+    sweeps.clear();
+    rows.clear();
+    row_of.clear();
+    for (const Piece& piece : part) {
+      const auto [row, fresh] = row_of.try_emplace(piece.move, rows.size());
+      if (fresh) rows.push_back({.move = piece.move});
+      for (const Outline& body : piece.cutter->bodies())
+        sweeps.push_back(Sweep::of(body, piece, impl_->lattice, row->second));
+    }
+    cut_batch(*impl_, sweeps, rows);
+    for (const Removal& row : rows) {  // a move may go on over the end of a batch
+      const auto [at, fresh] = out_of.try_emplace(row.move, out.size());
+      if (fresh) out.push_back({.move = row.move});
+      out[at->second].quanta += row.quanta;
+    }
+    if (bytes() > impl_->options.memory_limit) return unexpected(too_large(*impl_));
+  }
+  for (Removal& row : out) row.volume = volume_of(row.quanta);
+  return out;
+}
+
+Expected<Touch> Stock::touch(const Piece& piece) const {
+  if (auto ok = supported({&piece, 1}); !ok) return unexpected(ok.error());
+  Toucher toucher(*impl_);
+  for (const Outline& body : piece.cutter->bodies())
+    toucher.touch(Sweep::of(body, piece, impl_->lattice, 0));
+  return toucher.result();
+}
+
+Expected<ContactAnswer> Stock::would_cut(const Piece& piece, double tolerance) const {
+  auto exact = touch(piece);
+  if (!exact) return unexpected(exact.error());
+  ContactAnswer out{.touch = *exact, .least = exact->depth, .most = exact->depth};
+  // Rays are exact, the space between them is not: a body larger by h/2 that finds nothing proves
+  // that the body itself is clear.
+  const CutterProfile grown = piece.cutter->grown(pitch() / 2);
+  Piece larger = piece;
+  larger.cutter = &grown;
+  auto reach = touch(larger);
+  if (!reach) return unexpected(reach.error());
+  out.most = std::max(out.most, reach->depth);
+  if (exact->depth > tolerance)
+    out.contact = Contact::hit;
+  else
+    out.contact = reach->depth > 0 ? Contact::unresolved : Contact::clear;
+  return out;
+}
+
+}  // namespace aircut::stock

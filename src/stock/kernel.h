@@ -1,0 +1,78 @@
+// Row kernels: what one straight sweep with an upright axis takes from the 16 rays of a row.
+// Private to stock. The code is in kernel_rows.h and is compiled once per instruction set; all
+// builds give the same bytes, because only +, −, ×, ÷, √ and comparisons are used.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace aircut::stock {
+
+inline constexpr int cells = 16;  // per side of a brick
+inline constexpr int quanta_per_cell = 3840;
+inline constexpr int brick_quanta = cells * quanta_per_cell;
+
+enum class Family : std::uint8_t { x, y, z };
+
+/// Floor and Band of an outline in float (outline.h).
+struct FloorF {
+  float inner, outer, z, slope, arc, e, f;
+};
+struct BandF {
+  float z0, z1, r0, r1, arc, e, f;
+};
+
+struct ShapeF {
+  std::vector<FloorF> below, above;
+  std::vector<BandF> bands;
+  float radius, low, high, wall_low, wall_high;
+  float roof_edge;  ///< height of the upper side at its edge: the lowest of it
+};
+
+/// A sweep as one brick sees it, mm. The foot is the point of the path nearest to the brick, so
+/// that all numbers near the brick are small.
+struct LocalSweep {
+  const ShapeF* shape;
+  double pitch;
+  double foot[3];  ///< tip at the foot, from the brick's lowest corner
+  double u[2];     ///< direction in plan, unit
+  double slope;    ///< dz/ds
+  double s0, s1;   ///< the path in plan from the foot: s0 ≤ 0 ≤ s1
+  double rise;     ///< of a plunge: how far the upper end is above the foot
+};
+
+/// The chord of each ray, in quanta from the brick's border, clamped to the brick; a = b = 0 for
+/// none. `ta`, `tb`: the path parameter s at which the cutter touches the ends.
+struct Chords {
+  alignas(64) std::int32_t a[cells];
+  alignas(64) std::int32_t b[cells];
+  alignas(64) float ta[cells];
+  alignas(64) float tb[cells];
+};
+
+/// Lanes whose ends moved, as bits.
+struct RowChange {
+  std::uint32_t low = 0, high = 0;  ///< the lower (upper) end moved
+  std::uint32_t split = 0;  ///< the chord lies inside of the material: [b, old hi) is left over
+  std::uint32_t same_low = 0, same_high = 0;  ///< the chord ends where the material does
+  std::int32_t lost = 0;                      ///< quanta
+  std::int32_t deepest = 0;                   ///< the most on one ray
+  int deepest_lane = 0;
+
+  bool any() const { return (low | high | split | same_low | same_high) != 0; }
+};
+
+struct Kernels {
+  /// Z rays of row j (lanes along X).
+  void (*upright)(const LocalSweep&, int row, Chords&);
+  /// X (Y) rays of the row at height k, lanes along Y (X).
+  void (*level)(const LocalSweep&, Family, int row, Chords&);
+  /// Takes the chords from the row's intervals [lo, hi).
+  void (*take)(std::uint16_t* lo, std::uint16_t* hi, const Chords&, RowChange&);
+};
+
+/// The fastest kernels of this processor, or the portable ones.
+const Kernels& kernels();
+const Kernels& portable_kernels();
+
+}  // namespace aircut::stock

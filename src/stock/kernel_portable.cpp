@@ -1,0 +1,20 @@
+#include <cstddef>
+
+#include "stock/kernel.h"
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace aircut::stock {
+namespace {
+#include "stock/lanes.h"
+//
+#include "stock/kernel_rows.h"
+}  // namespace
+
+const Kernels& portable_kernels() {
+  static constexpr Kernels table = {upright, level, take};
+  return table;
+}
+
+}  // namespace aircut::stock

@@ -1,0 +1,160 @@
+#include "stock/row.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace aircut::stock {
+namespace {
+
+bool at_border(int end) { return end == 0 || end == brick_quanta; }
+
+/// The smaller of two normals of ends at the same place, so that the order of cuts doesn't matter.
+NormalCode either(NormalCode a, NormalCode b) { return a == 0 ? b : std::min(a, b); }
+
+/// Normals of the chord's ends on one lane, computed when somebody needs them.
+struct LaneNormals {
+  const LocalSweep& sweep;
+  Family family;
+  int row;
+  const Chords& chords;
+
+  NormalCode at_a(int lane) const {
+    const int end = chords.a[lane];
+    return at_border(end) ? NormalCode{0}
+                          : wall_normal(sweep, family, row, lane, end, chords.ta[lane]);
+  }
+  NormalCode at_b(int lane) const {
+    const int end = chords.b[lane];
+    return at_border(end) ? NormalCode{0}
+                          : wall_normal(sweep, family, row, lane, end, chords.tb[lane]);
+  }
+};
+
+template <class F>
+void each_lane(std::uint32_t bits, F f) {
+  for (; bits != 0; bits &= bits - 1) f(std::countr_zero(bits));
+}
+
+/// The same as the kernel's `take` for the intervals beyond a ray's first.
+void take_extra(RayFamily& family, const LaneNormals& normals, RowLoss& loss) {
+  const Chords& chords = normals.chords;
+  std::vector<ExtraInterval> left;
+  bool changed = false;
+  for (const ExtraInterval& e : family.extra) {
+    const int lane = e.ray % cells, a = chords.a[lane], b = chords.b[lane];
+    Interval i = e.interval;
+    if (e.ray / cells != normals.row || a >= b || a > i.hi || b < i.lo) {
+      left.push_back(e);
+      continue;
+    }
+    changed = true;
+    if (a == i.hi || b == i.lo) {
+      if (a == i.hi) i.normal_hi = either(i.normal_hi, normals.at_a(lane));
+      if (b == i.lo) i.normal_lo = either(i.normal_lo, normals.at_b(lane));
+      left.push_back({e.ray, i});
+      continue;
+    }
+    const int lost = std::min<int>(b, i.hi) - std::max<int>(a, i.lo);
+    loss.quanta += lost;
+    loss.deepest = std::max(loss.deepest, lost);
+    if (a > i.lo)
+      left.push_back(
+          {e.ray, {i.lo, static_cast<std::uint16_t>(a), i.normal_lo, normals.at_a(lane)}});
+    if (b < i.hi)
+      left.push_back(
+          {e.ray, {static_cast<std::uint16_t>(b), i.hi, normals.at_b(lane), i.normal_hi}});
+  }
+  if (!changed) return;
+  loss.changed = true;
+  family.extra = std::move(left);
+}
+
+}  // namespace
+
+RowLoss take_row(RayFamily& family, const LocalSweep& sweep, Family which, int row,
+                 const Chords& chords, const Kernels& kernels) {
+  const LaneNormals normals{sweep, which, row, chords};
+  RowLoss loss;
+  if (!family.extra.empty()) take_extra(family, normals, loss);
+
+  const auto first = static_cast<std::size_t>(row * cells);
+  std::uint16_t lo[cells], hi[cells], old_hi[cells];
+  if (family.block) {
+    std::copy_n(&family.block->lo[first], cells, lo);
+    std::copy_n(&family.block->hi[first], cells, hi);
+  } else {
+    const std::uint16_t full = family.full[static_cast<std::size_t>(row)];
+    for (int i = 0; i < cells; ++i) {
+      lo[i] = 0;
+      hi[i] = full >> i & 1 ? brick_quanta : 0;
+    }
+  }
+  std::copy_n(hi, cells, old_hi);
+  RowChange change;
+  kernels.take(lo, hi, chords, change);
+  if (!change.any()) return loss;
+  loss.quanta += change.lost;
+  loss.deepest = std::max(loss.deepest, change.deepest);
+  loss.changed = loss.changed || (change.low | change.high) != 0;
+
+  if (!family.block) {
+    if ((change.low | change.high) == 0) return loss;  // touched at the brick's border only
+    // Still all full or empty: lanes that moved at both ends are empty now.
+    const std::uint32_t moved = change.low | change.high;
+    if ((change.low & change.high) == moved && change.split == 0) {
+      family.full[static_cast<std::size_t>(row)] =
+          static_cast<std::uint16_t>(family.full[static_cast<std::size_t>(row)] & ~moved);
+      return loss;
+    }
+    family.make_block();
+  }
+  RayBlock& block = *family.block;
+  each_lane(change.split, [&](int lane) {
+    const auto i = first + static_cast<std::size_t>(lane);
+    family.extra.push_back({static_cast<std::uint16_t>(i),
+                            {static_cast<std::uint16_t>(chords.b[lane]), old_hi[lane],
+                             normals.at_b(lane), block.normal_hi[i]}});
+  });
+  std::copy_n(lo, cells, &block.lo[first]);
+  std::copy_n(hi, cells, &block.hi[first]);
+  const std::uint32_t emptied = change.low & change.high;
+  const auto at = [&](int lane) { return first + static_cast<std::size_t>(lane); };
+  each_lane(emptied, [&](int lane) { block.normal_lo[at(lane)] = block.normal_hi[at(lane)] = 0; });
+  each_lane(change.low & ~emptied,
+            [&](int lane) { block.normal_lo[at(lane)] = normals.at_b(lane); });
+  each_lane(change.high & ~emptied,
+            [&](int lane) { block.normal_hi[at(lane)] = normals.at_a(lane); });
+  each_lane(change.same_low, [&](int lane) {
+    block.normal_lo[at(lane)] = either(block.normal_lo[at(lane)], normals.at_b(lane));
+  });
+  each_lane(change.same_high, [&](int lane) {
+    block.normal_hi[at(lane)] = either(block.normal_hi[at(lane)], normals.at_a(lane));
+  });
+  return loss;
+}
+
+RowTouch touch_row(const RayFamily& family, int row, const Chords& chords) {
+  RowTouch out;
+  const auto offer = [&](int ray, int lo, int hi) {
+    const int a = std::max(chords.a[ray % cells], lo), b = std::min(chords.b[ray % cells], hi);
+    if (b <= a) return;
+    out.quanta += b - a;
+    if (b - a > out.deepest) {
+      out.deepest = b - a;
+      out.ray = ray;
+      out.middle = (a + b) / 2;
+    }
+  };
+  for (int ray = row * cells; ray < (row + 1) * cells; ++ray) {
+    const auto i = static_cast<std::size_t>(ray);
+    if (family.block)
+      offer(ray, family.block->lo[i], family.block->hi[i]);
+    else if (family.full[i / cells] >> (i % cells) & 1)
+      offer(ray, 0, brick_quanta);
+  }
+  for (const ExtraInterval& e : family.extra)
+    if (e.ray / cells == row) offer(e.ray, e.interval.lo, e.interval.hi);
+  return out;
+}
+
+}  // namespace aircut::stock

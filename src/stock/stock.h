@@ -1,0 +1,179 @@
+// stock: the material that is being cut, and what a cutter takes from it.
+//
+// A Stock is a lattice of rays in three directions with pitch h, in the frame of its carrier (the
+// link that it is clamped to). Every ray holds the intervals on it that are material; a cut takes
+// from each ray exactly what the straight sweep of the cutter covers. Where a ray ends is therefore
+// exact (to h/7680); between rays the surface is known to h/2 (docs/stock.md). Cutting is a set
+// difference: the order of the pieces, how they are batched and the number of threads change
+// nothing, bit for bit. Units mm, rad.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/base.h"
+#include "geometry/geometry.h"
+
+namespace aircut::stock {
+
+class Outline;
+
+/// A solid of revolution about +Z that removes material or asks for it: the cutting part of a tool,
+/// a shank, a holder. The tip is z = 0 of the outline it was made from. Cheap to copy.
+class CutterProfile {
+ public:
+  /// Errors of all of these: kind `cutter_shape`, with the parameter that is wrong.
+  static Expected<CutterProfile> flat(double diameter, double height);
+  static Expected<CutterProfile> ball(double diameter, double height);
+  static Expected<CutterProfile> bull(double diameter, double corner_radius, double height);
+  /// A cone from `tip_diameter` at the tip to `diameter` at `cone_height`, then straight.
+  static Expected<CutterProfile> cone(double tip_diameter, double diameter, double cone_height,
+                                      double height);
+  /// Any outline (geometry/profile.h). Chains of tangents around an arc, as the tool library makes
+  /// them, are found and become exact arcs again. Outlines that are not convex are cut as several
+  /// convex bodies that overlap.
+  static Expected<CutterProfile> from_outline(const Profile& outline);
+
+  /// The same body larger by `distance` on all sides (at most √2 times that at edges): for
+  /// clearance.
+  CutterProfile grown(double distance) const;
+
+  double radius() const;  ///< the largest
+  double low() const;     ///< lowest and highest z
+  double high() const;
+
+  const std::vector<Outline>& bodies() const { return *bodies_; }  ///< private to the library
+
+ private:
+  explicit CutterProfile(std::vector<Outline> bodies);
+  std::shared_ptr<const std::vector<Outline>> bodies_;
+};
+
+/// The part of a motion that is cut at once: a straight move of the tip with a fixed tool axis.
+struct Piece {
+  const CutterProfile* cutter = nullptr;  ///< borrowed for the call
+  Vec3 start = Vec3::Zero();              ///< tool tip, stock frame
+  Vec3 end = Vec3::Zero();
+  Vec3 axis = Vec3::UnitZ();  ///< unit, from the tip towards the spindle
+  std::uint32_t move = 0;     ///< what the removed material is credited to
+};
+
+/// Initial solids, in the frame of the stock.
+struct Box {
+  Vec3 low = Vec3::Zero(), high = Vec3::Zero();
+};
+/// Round bar or, with inner_radius > 0, a tube.
+struct Cylinder {
+  Vec3 base = Vec3::Zero();  ///< middle of the face with the smallest coordinate
+  int direction = 2;         ///< 0, 1, 2: along X, Y, Z
+  double radius = 0, inner_radius = 0, length = 0;
+};
+/// A closed mesh, outward oriented; brought to the lattice's quanta (h/3840) when it is cast.
+struct MeshSolid {
+  std::shared_ptr<const TriangleMesh> mesh;
+};
+using Solid = std::variant<Box, Cylinder, MeshSolid>;
+
+struct StockOptions {
+  std::size_t memory_limit = std::size_t{2} << 30;  ///< bytes
+  unsigned threads = 1;
+  std::size_t batch = 256;  ///< pieces that are binned together
+};
+
+/// What one move took.
+struct Removal {
+  std::uint32_t move = 0;
+  std::int64_t quanta = 0;  ///< length lost on Z rays; exact, in h/3840
+  double volume = 0;        ///< mm³, the same
+};
+
+/// What a piece would take, of the three families of rays.
+struct Touch {
+  double depth = 0;           ///< mm, the longest material on one ray
+  double volume = 0;          ///< mm³, the largest of the three families' sums
+  Vec3 point = Vec3::Zero();  ///< middle of that longest material
+};
+
+enum class Contact { clear, hit, unresolved };
+
+/// Answer of a body that must not touch the material (docs/stock.md).
+struct ContactAnswer {
+  Contact contact = Contact::clear;
+  Touch touch;       ///< of the body itself: exact on the rays
+  double least = 0;  ///< proven depth, mm: at least this much is inside
+  double most = 0;   ///< and at most this much
+};
+
+struct MeshStatistics {
+  std::size_t disagreeing_nodes = 0;  ///< the three families disagree: rounding only when few
+  std::size_t missing_ends = 0;       ///< edges that cross the surface without an end nearby
+};
+
+class Stock {
+ public:
+  /// Errors: `stock_shape` (size, pitch), `stock_mesh` (open mesh), `stock_memory` (names the
+  /// finest pitch that fits).
+  static Expected<Stock> make(const Solid& solid, double pitch, const StockOptions& options = {});
+  Stock(Stock&&) noexcept;
+  Stock& operator=(Stock&&) noexcept;
+  ~Stock();
+  /// A copy, e.g. to save the state at a tool change.
+  Stock clone() const;
+
+  /// Takes the swept volume of each piece away. One row per move that occurs in `pieces`, in order
+  /// of first appearance; a length that several moves cover belongs to the first. Errors:
+  /// `stock_memory`; `stock_unsupported`: a motion that is not modelled, nothing was cut.
+  Expected<std::vector<Removal>> cut(std::span<const Piece> pieces);
+
+  /// What the piece would take if it cut now. Changes nothing. Error: `stock_unsupported`.
+  Expected<Touch> touch(const Piece& piece) const;
+  /// The same as a proof for a body that must not touch, e.g. a shank or a rapid move. Contact up
+  /// to `tolerance` mm is no hit. Error: `stock_unsupported`.
+  Expected<ContactAnswer> would_cut(const Piece& piece, double tolerance) const;
+
+  double pitch() const;
+  Box3 box() const;           ///< of the initial solid
+  std::size_t bytes() const;  ///< resident, of the material itself
+  /// Bytes that a stock cut the same way takes at another pitch (they grow as 1/h²).
+  std::size_t bytes_at(double pitch) const;
+  /// Sum of the lengths on the Z rays, in quanta: what cut() takes away comes off this exactly.
+  std::int64_t z_quanta() const;
+  double volume_of(std::int64_t quanta) const;  ///< mm³
+
+  /// Material on the lattice's ray along `axis` (0, 1, 2) nearest to a point: intervals of that
+  /// coordinate, ascending.
+  std::vector<std::pair<double, double>> on_ray(int axis, const Vec3& point) const;
+
+  /// Volume inside mesh(), mm³: the best figure for the whole stock.
+  double volume() const;
+  /// The surface as a closed mesh, outward oriented.
+  TriangleMesh mesh(MeshStatistics* statistics = nullptr) const;
+  /// SHA-256 over the material: equal for equal stock, however it came about.
+  std::string hash() const;
+
+  struct Impl;  ///< private to the library
+
+ private:
+  explicit Stock(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Texts of the kinds of errors of this library.
+const std::vector<KindText>& stock_kinds();
+
+/// A circular arc or a helix.
+struct Arc {
+  Vec3 start = Vec3::Zero(), end = Vec3::Zero();
+  Vec3 centre = Vec3::Zero();   ///< any point of the arc's axis
+  Vec3 normal = Vec3::UnitZ();  ///< of its plane, unit
+  double angle = 0;             ///< rad, signed by `normal`; more than 2π for several turns
+};
+/// Chords of an arc or helix, at most `deviation` mm from it. `pattern` gives cutter, axis, move.
+std::vector<Piece> arc_pieces(const Arc& arc, const Piece& pattern, double deviation);
+
+}  // namespace aircut::stock
