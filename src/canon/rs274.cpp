@@ -7,9 +7,8 @@
 //
 // and divides lengths by the active unit. The tool length offset needs no removal, because
 // canonical positions are of the tip. Three calls of the reference are not one command of ours:
-//   * in inverse time mode it prints, before each move, the feed rate that the move gets: the
-//   length
-//     of its programmed path times the F word, at least 0.1;
+//   * in inverse time mode it prints, before the moves of a block, the feed rate that they get: the
+//     length of the path times the F word, at least 0.1;
 //   * synchronised moves stand between START_SPEED_FEED_SYNC and STOP_SPEED_FEED_SYNCH; the moves
 //   of
 //     one block share a pair, so the closing line is held back until the next command is known;
@@ -20,6 +19,7 @@
 #include <utility>
 
 #include "canon/canon.h"
+#include "canon/way.h"
 #include "canon/words.h"
 
 namespace aircut::canon {
@@ -31,8 +31,10 @@ struct Rs274Writer::State {
   AxisValues work_offset, g92_offset, tool_offset;
   double rotation = 0;
   FeedMode feed_mode = FeedMode::per_minute;
-  double moves_per_minute = 0;  // inverse time
-  bool surface_speed[32] = {};  // G96, by spindle
+  double moves_per_minute = 0;   // inverse time
+  std::string told_rate;         // inverse time: the last line that told a rate
+  std::uint64_t rate_block = 0;  // and its block
+  bool surface_speed[32] = {};   // G96, by spindle
   AxisValues tip;
 
   // What is written.
@@ -57,9 +59,8 @@ struct Rs274Writer::State {
   void header();
   void open_sync(const SyncFeed& move, std::uint64_t block);
   void close_sync();
-  void inverse_time_rate(double length_in_units);
-  double straight_length(const AxisValues& end) const;
-  void arc(const ArcFeed& move);
+  void inverse_time_rate(Way way, std::uint64_t block);
+  void arc(const ArcFeed& move, std::uint64_t block);
   void set_n_field(const SourceSpan& span);
 };
 
@@ -81,18 +82,6 @@ std::string n_of(std::string_view text) {
   std::string digits;
   for (skip(); i < text.size() && text[i] >= '0' && text[i] <= '9'; ++i, skip()) digits += text[i];
   return digits;
-}
-
-/// Angle that an arc sweeps, rad, > 0: at least a little more than nothing, up to a full turn, plus
-/// the extra turns.
-double swept(double x0, double y0, double x1, double y1, int turns) {
-  constexpr double full = 2 * std::numbers::pi;
-  constexpr double nothing = 1e-12;  // closer ends are one point, which means a full circle
-  double sweep = std::atan2(y1, x1) - std::atan2(y0, x0);
-  if (turns < 0) sweep = -sweep;
-  while (sweep <= nothing) sweep += full;
-  while (sweep > full + nothing) sweep -= full;
-  return sweep + full * (std::abs(turns) - 1);
 }
 
 }  // namespace
@@ -149,37 +138,27 @@ void Rs274Writer::State::close_sync() {
   sync_open = false;
 }
 
-void Rs274Writer::State::inverse_time_rate(double length_in_units) {
-  constexpr double least = 0.1;  // units per minute, the reference's
-  line("SET_FEED_RATE(" + four(std::max(least, length_in_units * moves_per_minute)) + ")");
+// Units, or degrees of rotary axes, per minute.
+void Rs274Writer::State::inverse_time_rate(Way way, std::uint64_t block) {
+  constexpr double least = 0.1;  // the reference's
+  const double units = way.rotary ? way.length * degrees_per_radian : length(way.length);
+  std::string rate = "SET_FEED_RATE(" + four(std::max(least, units * moves_per_minute)) + ")";
+  if (block != rate_block || rate != told_rate) line(rate);
+  rate_block = block;
+  told_rate = std::move(rate);
 }
 
-/// Way of the linear axes XYZ; when they rest of UVW; when those rest of the rotary ones in
-/// degrees.
-double Rs274Writer::State::straight_length(const AxisValues& end) const {
-  const AxisValues way = end - tip;
-  const auto norm = [&](Axis a, Axis b, Axis c) { return std::hypot(way[a], way[b], way[c]); };
-  constexpr double rest = 1e-12;
-  if (const double xyz = norm(Axis::x, Axis::y, Axis::z); xyz > rest) return length(xyz);
-  if (const double uvw = norm(Axis::u, Axis::v, Axis::w); uvw > rest) return length(uvw);
-  return norm(Axis::a, Axis::b, Axis::c) * degrees_per_radian;
-}
-
-void Rs274Writer::State::arc(const ArcFeed& move) {
+void Rs274Writer::State::arc(const ArcFeed& move, std::uint64_t block) {
   AxisValues centre;
   centre[Axis::x] = move.centre.x();
   centre[Axis::y] = move.centre.y();
   centre[Axis::z] = move.centre.z();
-  const AxisValues c = to_program(centre), end = to_program(move.end), start = to_program(tip);
+  const AxisValues c = to_program(centre), end = to_program(move.end);
   // First and second axis of the plane, and the one along its normal.
   Axis first = Axis::x, second = Axis::y, third = Axis::z;
   if (move.plane == Plane::zx) first = Axis::z, second = Axis::x, third = Axis::y;
   if (move.plane == Plane::yz) first = Axis::y, second = Axis::z, third = Axis::x;
-  if (feed_mode == FeedMode::inverse_time) {
-    const double x0 = start[first] - c[first], y0 = start[second] - c[second];
-    const double angle = swept(x0, y0, end[first] - c[first], end[second] - c[second], move.turns);
-    inverse_time_rate(length(std::hypot(std::hypot(x0, y0) * angle, end[third] - start[third])));
-  }
+  if (feed_mode == FeedMode::inverse_time) inverse_time_rate(arc_way(tip, move), block);
   std::string text = "ARC_FEED(";
   for (const double mm : {end[first], end[second], c[first], c[second]})
     text += four(length(mm)) + ", ";
@@ -208,10 +187,11 @@ struct Write {
 
   void operator()(const Rapid& c) const { s.line("STRAIGHT_TRAVERSE(" + s.six(c.end) + ")"); }
   void operator()(const LinearFeed& c) const {
-    if (s.feed_mode == FeedMode::inverse_time) s.inverse_time_rate(s.straight_length(c.end));
+    if (s.feed_mode == FeedMode::inverse_time)
+      s.inverse_time_rate(straight_way(s.tip, c.end), block);
     s.line("STRAIGHT_FEED(" + s.six(c.end) + ")");
   }
-  void operator()(const ArcFeed& c) const { s.arc(c); }
+  void operator()(const ArcFeed& c) const { s.arc(c, block); }
   void operator()(const SplineFeed& c) const {
     s.line("NURBS_FEED(" + std::to_string(c.points.size()) + ", ...)");
   }

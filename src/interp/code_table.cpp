@@ -27,6 +27,11 @@ constexpr CodeRule rows[] = {
     {'G',  51, G::motion,        P::motion,        motion, "IJ",    quadratic_spline},
     {'G',  52, G::motion,        P::motion,        motion, "PL",    nurbs_point},
     {'G',  53, G::non_modal,     P::non_modal,     none,   "",      nurbs_end},
+    // of the versions after 2.9
+    {'G',  60, G::motion,        P::motion,        motion, "",      nullptr},
+    {'G',  61, G::motion,        P::motion,        motion, "",      nullptr},
+    {'G',  62, G::motion,        P::motion,        motion, "",      nullptr},
+    {'G',  63, G::non_modal,     P::non_modal,     none,   "",      nullptr},
     {'G', 330, G::motion,        P::motion,        motion, "K$",    thread},
     {'G', 331, G::motion,        P::motion,        motion, "KI$",   rigid_tap},
     {'G', 382, G::motion,        P::motion,        motion, "",      probe},
@@ -50,8 +55,8 @@ constexpr CodeRule rows[] = {
     {'G', 840, G::motion,        P::motion,        motion, "RLP",   canned_cycle},
     {'G', 850, G::motion,        P::motion,        motion, "RL",    canned_cycle},
     {'G', 860, G::motion,        P::motion,        motion, "RLP",   canned_cycle},
-    {'G', 870, G::motion,        P::motion,        motion, "RLIJK", nullptr},
-    {'G', 880, G::motion,        P::motion,        motion, "RLP",   nullptr},
+    {'G', 870, G::motion,        P::motion,        motion, "RLIJK", canned_cycle},
+    {'G', 880, G::motion,        P::motion,        motion, "RLP",   canned_cycle},
     {'G', 890, G::motion,        P::motion,        motion, "RLP",   canned_cycle},
     // modes
     {'G',  70, G::lathe,         P::lathe,         none,   "",      lathe_mode},

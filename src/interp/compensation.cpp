@@ -121,6 +121,7 @@ void Compensator::leave(BlockRun& run, const PlannedMove& planned) {
                 "the move that leaves radius compensation is shorter than the tool's diameter (" +
                     mm(2 * state.comp.radius) + "); it may cut into the contour");
   state.comp = CompState{};
+  if (const auto rate = pace(planned, canon::straight_way(state.tip, planned.end))) run.emit(*rate);
   state.tip = planned.end;
   if (planned.kind == PlannedMove::Kind::rapid)
     run.emit(canon::Rapid{planned.end});
@@ -174,7 +175,7 @@ void Compensator::move(BlockRun& run, const PlannedMove& planned) {
   if (!is_arc && norm(to - from) < same_point) return stay(run, planned);
   auto path = next_path(run, planned, from, to);
   if (!path) return;
-  if (!join(run, *path, from, planned.kind == PlannedMove::Kind::rapid)) return;
+  if (!join(run, planned, *path, from)) return;
   emit_path(run, planned, *path);
 }
 
@@ -277,7 +278,7 @@ std::optional<Compensator::Path> Compensator::next_path(BlockRun& run, const Pla
 // ---- corners ---------------------------------------------------------------------------------
 
 // Puts the corner between the held element and the next one in order and lets go of the held one.
-bool Compensator::join(BlockRun& run, Path& next, Point corner, bool is_rapid) {
+bool Compensator::join(BlockRun& run, const PlannedMove& planned, Path& next, Point corner) {
   ModalState& state = run.state;
   if (last_->entry && is_fanuc(run)) {  // straight to beside the corner, as start-up type A
     end_held_at(run, next.start);
@@ -314,7 +315,7 @@ bool Compensator::join(BlockRun& run, Path& next, Point corner, bool is_rapid) {
     return true;
   }
   const AxisValues middle = tip_of(state, state.tip, next.start);
-  if (is_rapid) {
+  if (planned.kind == PlannedMove::Kind::rapid) {
     run.emit_now(canon::Rapid{middle}, "corner of radius compensation");
   } else {
     canon::ArcFeed round;
@@ -324,6 +325,7 @@ bool Compensator::join(BlockRun& run, Path& next, Point corner, bool is_rapid) {
     round.normal = plane_normal(state);
     round.turns = side > 0 ? -1 : 1;
     round.plane = state.plane;
+    if (const auto rate = pace(planned, canon::arc_way(state.tip, round))) run.emit_now(*rate);
     run.emit_now(round, "corner of radius compensation");
   }
   state.tip = middle;
@@ -370,6 +372,24 @@ void Compensator::end_held_at(BlockRun& run, Point at) {
         command.action);
   }
   last_->end = at;
+  if (held_rate_ <= 0 || held_.size() < 2) return;
+  auto* rate = std::get_if<canon::SetFeedRate>(&held_[0].action);
+  const auto* line = std::get_if<canon::LinearFeed>(&held_[1].action);
+  const auto* arc = std::get_if<canon::ArcFeed>(&held_[1].action);
+  if (!rate || (!line && !arc)) return;
+  const canon::Way way =
+      line ? canon::straight_way(held_start_, line->end) : canon::arc_way(held_start_, *arc);
+  if (way.length > 0) rate->value = held_rate_ / way.length;
+}
+
+// In inverse time the control takes the rate from the contour as programmed: the compensated move
+// and the corner before it are driven at that speed.
+std::optional<canon::SetFeedRate> Compensator::pace(const PlannedMove& planned,
+                                                    canon::Way way) const {
+  if (planned.rate <= 0 || way.length <= 0 || way.rotary) return std::nullopt;
+  canon::SetFeedRate rate;
+  rate.value = planned.rate / way.length;
+  return rate;
 }
 
 // The angle that an arc runs through, in its own turning direction, from 0 to 2π.
@@ -435,11 +455,15 @@ std::vector<Compensator::Point> Compensator::intersections(const Path& first,
 void Compensator::emit_path(BlockRun& run, const PlannedMove& planned, const Path& path) {
   ModalState& state = run.state;
   const AxisValues end = tip_of(state, planned.end, path.end);
+  held_start_ = path.entry ? state.tip : tip_of(state, state.tip, path.start);
+  held_rate_ = planned.rate;
   switch (planned.kind) {
     case PlannedMove::Kind::rapid:
       run.emit_held(canon::Rapid{end});
       break;
     case PlannedMove::Kind::feed:
+      if (const auto rate = pace(planned, canon::straight_way(held_start_, end)))
+        run.emit_held(*rate);
       run.emit_held(canon::LinearFeed{end});
       break;
     case PlannedMove::Kind::arc: {
@@ -447,6 +471,7 @@ void Compensator::emit_path(BlockRun& run, const PlannedMove& planned, const Pat
       arc.end = end;
       const AxisValues centre = tip_of(state, state.tip, path.centre);
       arc.centre = Vec3(centre[Axis::x], centre[Axis::y], centre[Axis::z]);
+      if (const auto rate = pace(planned, canon::arc_way(held_start_, arc))) run.emit_held(*rate);
       run.emit_held(arc);
       break;
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "canon/canon.h"
+#include "canon/way.h"
 #include "interp/state.h"
 
 namespace aircut::interp {
@@ -17,6 +18,7 @@ struct PlannedMove {
   enum class Kind : unsigned char { rapid, feed, arc } kind = Kind::feed;
   AxisValues end;      ///< tip, machine coordinates
   canon::ArcFeed arc;  ///< of an arc; its `end` is the same
+  double rate = 0;     ///< inverse time: mm/s, or rad/s, along the programmed way; else 0
 };
 
 /// Holds back the last compensated move until the next one says where it really ends.
@@ -62,13 +64,14 @@ class Compensator {
   void leave(BlockRun& run, const PlannedMove& planned);
   std::optional<Path> entry_path(BlockRun& run, const PlannedMove& planned, Point from, Point to);
   std::optional<Path> next_path(BlockRun& run, const PlannedMove& planned, Point from, Point to);
-  bool join(BlockRun& run, Path& next, Point corner, bool is_rapid);
+  bool join(BlockRun& run, const PlannedMove& planned, Path& next, Point corner);
   void end_held_at(BlockRun& run, Point at);
   bool meet_inside(BlockRun& run, Path& next, Point corner);
   std::vector<Point> intersections(const Path& first, const Path& second) const;
   double sweep_of(const Path& arc) const;
   bool still_forward(const Path& path) const;
   bool runs_back(const Path& path) const;
+  std::optional<canon::SetFeedRate> pace(const PlannedMove& planned, canon::Way way) const;
   void emit_path(BlockRun& run, const PlannedMove& planned, const Path& path);
   void plain(BlockRun& run, const PlannedMove& planned);
   void stay(BlockRun& run, const PlannedMove& planned);
@@ -78,7 +81,9 @@ class Compensator {
   Point nose_shift(const ModalState& state) const;
   double side_sign(const ModalState& state) const;
 
-  std::vector<canon::Command> held_;  ///< [0] is the move whose end is not final
+  std::vector<canon::Command> held_;  ///< first the move whose end is not final, and its pace
+  AxisValues held_start_;             ///< of that move
+  double held_rate_ = 0;              ///< of that move: PlannedMove::rate
   std::optional<Path> last_;          ///< of held_[0], or of the last move that was emitted
 };
 

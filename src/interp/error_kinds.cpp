@@ -157,6 +157,11 @@ const std::vector<KindText>& error_kinds() {
       {"math_domain", "a function or operator outside its range",
        "Division by 0, SQRT of a negative number, ACOS of more than 1, results that are not "
        "finite. Example: `[1/#1]` with #1 = 0."},
+      {"manual_retract", "a cycle whose tool is drawn out by hand",
+       "Warning. G88 feeds to the bottom, dwells, and stops there until the operator has moved the "
+       "tool out; the control goes on as if it were at the level of retraction. Nothing in the "
+       "program moves it, so here the next move begins at the bottom. Use G86 or G89. Example: "
+       "`G88 X1 Z-1 R1 P0.5`."},
       {"misplaced_word", "N or an O-word that is not the first word",
        "N stands first, then an O-word. Example: `G0 N10`."},
       {"mixed_block", "words and a macro statement in one block",
@@ -246,7 +251,7 @@ const std::vector<KindText>& error_kinds() {
       {"unknown_operator", "an operator that does not exist",
        "Known are ** * / MOD + - EQ NE GT GE LT LE AND OR XOR. Example: `[1 is 2]`."},
       {"unsupported_code", "a code that is known but not implemented",
-       "The control knows it, this program does not, so the line can't be checked. Example: G87."},
+       "The control knows it, this program does not, so the line can't be checked. Example: G6.2."},
       {"word_ignored", "a code without the word that makes it act",
        "Warning. Example: M19 without R does not move the spindle."},
       {"word_missing", "a word that the code needs",

@@ -193,6 +193,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void call_fanuc(const FlowRequest& request);
   bool enter_sub(ProgramFile& file, int at, const std::vector<double>* arguments, std::string what);
   void pass_sub(Block& block, int at);
+  void pass_value(const FlowEntry& end);
   void leave_sub(Block& block);
   void return_fanuc();
   void return_from_call();

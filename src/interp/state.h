@@ -35,7 +35,8 @@ struct CycleState {
   canon::Unit unit = canon::Unit::millimetre;  ///< when its words were given
   double r = 0, z = 0, p = 0, q = 0, d = 0;
   bool has_r = false, has_z = false, has_p = false, has_q = false, has_d = false;
-  double i = 0, j = 0, k = 0;  ///< Fanuc: shift of G76 and G87. Haas: pecks of G73 and G83
+  bool has_i = false, has_j = false, has_k = false;
+  double i = 0, j = 0, k = 0;  ///< G87; Fanuc: shift of G76 and G87. Haas: pecks of G73 and G83
 };
 
 /// What the cycles of Fanuc-like lathes keep from line to line; mm, X as radius.

@@ -63,7 +63,27 @@ void Interpreter::Impl::pass_sub(Block& block, int at) {
     const FlowEntry& other = entry(inside);
     if (other.keyword == Keyword::sub && other.problem_kind) report_at(other);
   }
+  for (int inside = at + 1; inside <= sub.partner; ++inside) {
+    const FlowEntry& other = entry(inside);
+    const bool ends = other.keyword == Keyword::endsub || other.keyword == Keyword::return_;
+    if (ends && other.label == sub.label) pass_value(other);
+  }
   jump_behind(entry(sub.partner));
+}
+
+// The control reads the ends of a sub while it passes the definition: their values count as
+// returned, with 0 for names that the sub would have set.
+void Interpreter::Impl::pass_value(const FlowEntry& end) {
+  jump_to(end);
+  Block* block = fetch();
+  if (!block) return;
+  value_ = 0;
+  value_returned_ = !block->oword.arguments.empty();
+  if (!value_returned_) return;
+  std::optional<Fault> fault;
+  const auto value = evaluate(block->oword.arguments.front(), block->code, parameters_, fault);
+  if (!value && std::string_view(fault->kind) != "parameter_undefined") report(*fault);
+  value_ = value.value_or(0);
 }
 
 std::optional<std::string> Interpreter::Impl::label_of(const Block& block) {
@@ -289,6 +309,8 @@ void Interpreter::Impl::call_fanuc(const FlowRequest& request) {
 }
 
 void Interpreter::Impl::return_fanuc() {
+  value_ = 0;
+  value_returned_ = false;
   Frame& frame = frames_.back();
   if (frame.repeats > 1) {
     --frame.repeats;

@@ -22,7 +22,7 @@ void ProgramMaker::contour_piece(int& x, int& y, int& way) {
   switch (below(8)) {
     case 0:
       x += dx, y += dy;
-      return add(pick({"G2 ", "G3 "}) + point() + " R" + pick({"40", "60", "35", "30"}) + z);
+      return add(pick({"G2 ", "G3 "}) + point() + " R" + pick({"40", "60", "35", "30"}) + z + feed());
     case 1:  // a quarter from one axis' direction to the next
       if (way % 2 != 0) break;
       {
@@ -34,11 +34,11 @@ void ProgramMaker::contour_piece(int& x, int& y, int& way) {
         const std::string centre =
             " I" + std::to_string(-side * r * ay) + " J" + std::to_string(side * r * ax);
         way = (way + (left ? 2 : 6)) % 8;
-        return add((left ? "G3 " : "G2 ") + point() + centre + z);
+        return add((left ? "G3 " : "G2 ") + point() + centre + z + feed());
       }
     case 2: {
       x += dx, y += dy;
-      add("G91 G1 X" + std::to_string(dx) + " Y" + std::to_string(dy) + z);
+      add("G91 G1 X" + std::to_string(dx) + " Y" + std::to_string(dy) + z + feed());
       return add("G90");
     }
     case 3:
@@ -48,25 +48,27 @@ void ProgramMaker::contour_piece(int& x, int& y, int& way) {
       break;
   }
   x += dx, y += dy;
-  add("G1 " + point() + z);
+  add("G1 " + point() + z + feed());
 }
 
 void ProgramMaker::contour() {
   known_modes();
   add("G49");
   add("G0 X-40 Y-10");
+  inverse_time_ = one_in(8);
+  if (inverse_time_) add("G93");
   const std::string side = pick({"G41", "G42"});
   add(one_in(3) ? side + " D" + std::to_string(1 + below(2))
                 : side + ".1 D" + pick({"4", "6", "-4", "0", "1", "10", "2.5"}));
   int x = -10, y = 5 * below(3), way = below(2);
   if (one_in(6))
     add(pick({"G2", "G3"}) + " X" + std::to_string(x) + " Y" + std::to_string(y) + " R" +
-        pick({"30", "40", "25"}));
+        pick({"30", "40", "25"}) + feed());
   else
-    add(pick({"G1", "G1", "G0"}) + " X" + std::to_string(x) + " Y" + std::to_string(y));
+    add(pick({"G1", "G1", "G0"}) + " X" + std::to_string(x) + " Y" + std::to_string(y) + feed());
   for (int i = 3 + below(7); i > 0; --i) {
     contour_piece(x, y, way);
-    if (one_in(8)) add(pick({"G1 Z", "G0 Z", "G1 A"}) + decimal(-5, 5));
+    if (one_in(8)) add(pick({"G1 Z", "G0 Z", "G1 A"}) + decimal(-5, 5) + feed());
     if (one_in(12)) add(pick({"M8", "G4 P1", "F80", "(in between)", "#1=#<_x>", "S200", "G91.1"}));
     if (one_in(60))
       add(pick({"G55", "G0 G53 X0", "G81 X1 Z-1 R1", "M6", "G43 H1", "G17", "G28", "(DEBUG,#5420)",
@@ -75,7 +77,9 @@ void ProgramMaker::contour() {
   }
   add("G40");
   if (one_in(6)) add("(left)");
-  add(pick({"G1", "G0"}) + " X-40 Y-30");
+  add(pick({"G1", "G0"}) + " X-40 Y-30" + feed());
+  if (inverse_time_) add("G94 F" + std::to_string(50 + below(200)));
+  inverse_time_ = false;
   add("G21 G8");
 }
 

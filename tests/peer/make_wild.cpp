@@ -103,6 +103,8 @@ void ProgramMaker::wild() {
                                    {"G84", "XYZRLP$"},
                                    {"G85", "XYZRL"},
                                    {"G86", "XYZRLP$"},
+                                   {"G87", "XYZRLIJK"},
+                                   {"G88", "XYZRLP"},
                                    {"G89", "XYZRLPA"},
                                    {"G90", "X"},
                                    {"G91", "XZ"},

@@ -1,6 +1,7 @@
 // The handlers of the code table, one file per subject.
 #pragma once
 
+#include "canon/way.h"
 #include "interp/contour.h"
 #include "interp/run.h"
 
@@ -169,6 +170,9 @@ bool spindle_turns(BlockRun& run, const CodeRule& rule, int spindle);
 void emit_feed(BlockRun& run);
 /// True when a feed is set for the move; else the error is recorded.
 bool feed_is_set(BlockRun& run, const CodeRule& rule);
+/// In inverse time the control takes the rate of a move, per minute, for the feed from then on.
+/// Gives that rate in mm/s or rad/s; 0 in other modes.
+double note_inverse_time(BlockRun& run, canon::Way way);
 /// Tell the path mode in force, and Q of G64.
 void emit_path_mode(BlockRun& run);
 void emit_naive_tolerance(BlockRun& run);

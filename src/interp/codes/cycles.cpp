@@ -1,4 +1,4 @@
-// Canned cycles G73 G74 G81-G86 G89. Coordinates here: a and b in the plane, c along its normal,
+// Canned cycles G73 G74 G81-G89. Coordinates here: a and b in the plane, c along its normal,
 // program coordinates as numbers
 // of the unit in force: what a cycle remembers keeps its numbers over G20 and G21, and pecks are
 // counted down from R as the control does it, rounding included.
@@ -20,7 +20,8 @@
 namespace aircut::interp {
 namespace {
 
-constexpr double rounding = 1e-9;   // of a level that was turned into machine coordinates
+constexpr double rounding = 1e-9;  // of a level that was turned into machine coordinates
+constexpr const char* shift = "how far beside the axis the tool goes down";
 constexpr int max_moves = 100'000;  // of one line, so that it can't fill the memory
 
 class Cycle : private HoleMotion {
@@ -43,6 +44,8 @@ class Cycle : private HoleMotion {
   void peck();
   void tap();
   void bore_and_stop();
+  void back_bore();
+  void bore_by_hand();
 
   double r_ = 0, z_ = 0, clear_ = 0;
 };
@@ -135,8 +138,15 @@ bool Cycle::read_words() {
   cycle.r = run_.number_or('R', cycle.r);
   cycle.z = coordinate(axes_.normal).value_or(cycle.z);
   switch (rule_.code) {
+    case 870:
+      if (!need('I', same, cycle.has_i, cycle.i, shift) ||
+          !need('J', same, cycle.has_j, cycle.j, shift) ||
+          !need('K', same, cycle.has_k, cycle.k, "how far up it bores"))
+        return false;
+      break;
     case 820:
     case 860:
+    case 880:
     case 890:
       if (!need('P', same, cycle.has_p, cycle.p, "the dwell at the bottom in seconds"))
         return false;
@@ -186,15 +196,17 @@ bool Cycle::spindle_fits() {
                "G74 needs the spindle turning counter-clockwise; give M4 before");
     return false;
   }
-  if (rule_.code == 860 && turn == canon::SpindleTurn::stop) {
-    run_.error("spindle_stopped", rule_, "G86 needs a turning spindle; give M3 or M4 before");
+  const bool turning = rule_.code == 860 || rule_.code == 870 || rule_.code == 880;
+  if (turning && turn == canon::SpindleTurn::stop) {
+    run_.error("spindle_stopped", rule_,
+               name_of(rule_) + " needs a turning spindle; give M3 or M4 before");
     return false;
   }
   return true;
 }
 
 bool Cycle::count_moves(int repeats) {
-  double per_hole = 8;
+  double per_hole = 12;
   if (rule_.code == 730 || rule_.code == 830) per_hole += 3 * (r_ - z_) / state_.cycle.q;
   if (per_hole * repeats <= max_moves) return true;
   run_.error("limit_reached", rule_,
@@ -258,6 +270,10 @@ void Cycle::body() {
       return tap();
     case 860:
       return bore_and_stop();
+    case 870:
+      return back_bore();
+    case 880:
+      return bore_by_hand();
     case 820:
       drill(z_);
       dwell(state_.cycle.p);
@@ -317,6 +333,55 @@ void Cycle::bore_and_stop() {
   turn(canon::SpindleTurn::stop);
   rapid_to(clear_, "retract");
   turn(before);
+}
+
+// With the spindle stopped at one angle the tool goes down beside the hole's axis, bores from the
+// bottom up to K and back, and leaves as it came. Two of I, J and K are along the axes of the
+// plane, the third one along its normal.
+void Cycle::back_bore() {
+  const CycleState& cycle = state_.cycle;
+  const double words[] = {cycle.i, cycle.j, cycle.k};
+  const auto along = [&](Axis axis) { return words[index(axis) % 3]; };
+  const double a = a_, b = b_, top = along(axes_.normal) + (state_.incremental ? z_ : 0);
+  const double a_beside = a + along(axes_.first), b_beside = b + along(axes_.second);
+  const canon::SpindleTurn before = state_.spindles[static_cast<std::size_t>(spindle_)].turn;
+  const auto orient = [&] {
+    constexpr int clockwise = 2, counterclockwise = 3;  // as the control counts turns here
+    turn(canon::SpindleTurn::stop);
+    run_.emit(
+        canon::OrientSpindle{
+            spindle_, 0, before == canon::SpindleTurn::clockwise ? clockwise : counterclockwise},
+        told("orient"));
+  };
+  move(true, a_beside, b_beside, c_, "beside the axis");
+  orient();
+  rapid_to(z_, "down");
+  move(true, a, b, z_, "to the axis");
+  turn(before);
+  feed(top, "bore upwards");
+  feed(z_, "back down");
+  orient();
+  move(true, a_beside, b_beside, z_, "beside the axis");
+  rapid_to(clear_, "retract");
+  move(true, a, b, clear_, "to the axis");
+  turn(before);
+}
+
+// The control counts on the operator's hand: it goes on as if the tool were at the level of
+// retraction.
+void Cycle::bore_by_hand() {
+  const canon::SpindleTurn before = state_.spindles[static_cast<std::size_t>(spindle_)].turn;
+  drill(z_);
+  dwell(state_.cycle.p);
+  turn(canon::SpindleTurn::stop);
+  run_.emit(canon::ProgramStop{}, told("stop"));
+  turn(before);
+  run_.warning(
+      "manual_retract", run_.whole(),
+      "G88 stops at the bottom for the operator to draw the tool out by hand, which is not "
+      "in the program: the next move here begins at the bottom; use G86 or G89");
+  c_ = clear_;
+  state_.tip = tip_at(a_, b_, c_);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
+#include "interp/dialect.h"
 #include "interp/held_move.h"
 
 namespace aircut::interp {
@@ -151,6 +152,16 @@ bool feed_is_set(BlockRun& run, const CodeRule& rule) {
   return false;
 }
 
+double note_inverse_time(BlockRun& run, canon::Way way) {
+  ModalState& state = run.state;
+  if (state.feed_mode != canon::FeedMode::inverse_time || run.session.table.dialect().macro_b)
+    return 0;
+  constexpr double least = 0.1;  // per minute, of the control
+  const double units = way.rotary ? way.length / radian_per_degree : way.length / state.unit_mm();
+  state.feed = std::max(least, units * run.number_or('F', 0));
+  return way.length * run.number_or('F', 0) / 60;
+}
+
 void rapid(const CodeRule&, BlockRun& run) {
   const auto end = target_of(run);
   if (!end) return;
@@ -167,7 +178,10 @@ void linear_feed(const CodeRule& rule, BlockRun& run) {
   if (!feed_is_set(run, rule)) return;
   if (const auto angle = run.session.table.lathe() ? line_angle(run) : std::nullopt)
     return line_by_angle(rule, run, *angle);
-  if (const auto end = target_of(run)) make_move(run, rule, {PlannedMove::Kind::feed, *end, {}});
+  const auto end = target_of(run);
+  if (!end) return;
+  const double rate = note_inverse_time(run, canon::straight_way(run.state.programmed_tip(), *end));
+  make_move(run, rule, {PlannedMove::Kind::feed, *end, {}, rate});
 }
 
 void cancel_motion(const CodeRule&, BlockRun&) {}
@@ -239,7 +253,13 @@ void probe(const CodeRule& rule, BlockRun& run) {
   if (refuse_with_comp(run, rule, true) || !has_axes(run, rule)) return;
   if (run.state.feed_mode == canon::FeedMode::per_revolution)
     return run.error("probe_error", rule, "probing can't be done with G95; give G94 and F before");
-  if (!feed_is_set(run, rule)) return;
+  const bool inverse_time = run.state.feed_mode == canon::FeedMode::inverse_time;
+  if (inverse_time && run.state.feed <= 0)
+    return run.error("zero_feed", rule,
+                     name_of(rule) +
+                         " in G93 moves with the feed of the last move, and there was "
+                         "none; give G94 and F before");
+  if (!inverse_time && !feed_is_set(run, rule)) return;
   const auto end = target_of(run);
   if (!end) return;
   const bool must_hit = rule.code == 382 || rule.code == 384;
@@ -253,6 +273,13 @@ void probe(const CodeRule& rule, BlockRun& run) {
   move.end = *end;
   move.away = rule.code >= 384;
   move.error_if_missed = must_hit;
+  if (const canon::Way way = canon::straight_way(run.state.tip, *end);
+      inverse_time && way.length > 0) {
+    const double unit = way.rotary ? radian_per_degree : run.state.unit_mm();
+    canon::SetFeedRate rate;
+    rate.value = run.state.feed * unit / 60 / way.length;
+    run.emit(rate);
+  }
   run.emit(move);
   run.state.tip = *end;
 }

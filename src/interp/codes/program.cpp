@@ -117,7 +117,8 @@ void restore_feed(BlockRun& run, const ModalState& saved) {
       run.emit(canon::SetFeedRate{});
     }
   }
-  if (!feed_differs) return;
+  // In inverse time an F is of its own line only.
+  if (!feed_differs || state.feed_mode == canon::FeedMode::inverse_time) return;
   state.feed = saved.feed;
   emit_feed(run);
 }
