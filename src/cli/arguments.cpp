@@ -314,6 +314,34 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
           "pose → d joint / d pose word, row by row: all pose words of the first joint, then of "
           "the second, …",
           KinArguments::Action::jac);
+  CLI::App* c_rot = c_kin->add_subcommand(
+      "rot",
+      "orientations of one convention in another one, frames of a rotation cycle, angles of a "
+      "head\n\n"
+      "A convention is an order of the axes or its BIN number, and int (turned axes) or ext "
+      "(fixed\n"
+      "axes): XYZ-int, 57-ext. Rows are three angles in the order of the axes, in degrees.\n\n"
+      "  echo '30 45 60' | aircut kin rot --from XYZ-ext --to ZXY-int");
+  c_rot->add_option("--from", kin.from, "convention of the rows, or `matrix` (R11 R12 … R33)")
+      ->type_name("CONVENTION");
+  c_rot
+      ->add_option(
+          "--to", kin.to,
+          "convention of the answers, `all`, `matrix`, `head` or `head45` (C, A and the\n"
+          "roll that is left, all solutions), `table` or `table45` (turntable, C and A of\n"
+          "least travel from zero)")
+      ->type_name("CONVENTION");
+  c_rot->add_flag("--inverse", kin.inverse, "both sets of angles");
+  c_rot->add_flag("--frame", kin.frame,
+                  "rows are POS_X POS_Y POS_Z, the orientation, POS_X_R POS_Y_R POS_Z_R; answers\n"
+                  "begin with the frame's origin");
+  c_rot->add_flag("--add", kin.add, "each row is a step on top of the row before");
+  c_rot->add_flag(
+      "--cycle", kin.cycle,
+      "rows are the 18 arguments of CYCLE600; answers are head, three angles, INEXOUT,\n"
+      "BIN_OUT and the frame's origin");
+  add_color(c_rot, kin.color);
+  c_rot->callback([&kin] { kin.action = KinArguments::Action::rot; });
 
   CLI::App* c_explain = app.add_subcommand("explain",
                                            "what a kind of message means\n\n"

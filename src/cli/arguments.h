@@ -83,9 +83,15 @@ struct MachineArguments {
 };
 
 struct KinArguments {
-  enum class Action { fk, ik, jac } action = Action::ik;
+  enum class Action { fk, ik, jac, rot } action = Action::ik;
   std::string machine;
   bool tool_vector = false;  ///< ik: rows are X Y Z I J K
+  // rot:
+  std::string from = "XYZ-int", to = "XYZ-int";
+  bool frame = false;    ///< rows are POS, the orientation, POS_R
+  bool add = false;      ///< each row is a step on top of the one before
+  bool inverse = false;  ///< both solutions
+  bool cycle = false;    ///< rows are calls of CYCLE600
   When color = When::automatic;
 };
 

@@ -2,13 +2,13 @@
 // standard input, one row (or `error: …`) per line of standard output. Every row stands alone: of
 // several solutions the one nearest to home is taken.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
 #include "cli/exit_code.h"
 #include "cli/job.h"
+#include "cli/rows.h"
 #include "machine/kinematics/chain.h"
 
 namespace aircut::cli {
@@ -20,16 +20,6 @@ using machine::JointVector;
 using machine::Machine;
 
 constexpr double degree = std::numbers::pi / 180;
-
-/// One place of a row: its name, and the size of the user's unit (1 mm, or a degree in rad).
-struct Column {
-  std::string name;
-  double unit;
-};
-
-using Row = std::vector<double>;
-using RowOrReason = tl::expected<Row, std::string>;
-using TextOrReason = tl::expected<std::string, std::string>;
 
 std::vector<Axis> pose_axes(const Machine& machine) {
   std::vector<Axis> axes;
@@ -58,113 +48,7 @@ std::vector<Column> vector_columns() {
   return {{"X", 1}, {"Y", 1}, {"Z", 1}, {"I", 1}, {"J", 1}, {"K", 1}};
 }
 
-// 12 significant digits, the same in every locale.
-std::string digits12(double value) {
-  char text[32];
-  if (value == 0) value = 0;  // minus zero loses its sign
-  const auto end =
-      std::to_chars(text, text + sizeof text, value, std::chars_format::general, 12).ptr;
-  return std::string(text, end);
-}
-
-std::string text_of(const Row& row) {
-  std::string line;
-  for (const double value : row) line += (line.empty() ? "" : " ") + digits12(value);
-  return line;
-}
-
-std::string text_of_all(const std::vector<Row>& rows) {
-  std::string line;
-  for (const Row& row : rows) line += (line.empty() ? "" : " ; ") + text_of(row);
-  return line;
-}
-
-// ---- reading a row ---------------------------------------------------------------------------
-
-// A decimal number, with an exponent if it likes: what a program printed can be read again.
-std::optional<double> number_of(std::string_view text) {
-  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-    return std::nullopt;
-  return value;
-}
-
-bool is_separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == '\r'; }
-
-std::vector<std::string_view> words_of(std::string_view line) {
-  std::vector<std::string_view> words;
-  for (std::size_t i = 0; i < line.size();) {
-    if (is_separator(line[i])) {
-      ++i;
-      continue;
-    }
-    std::size_t end = i;
-    while (end < line.size() && !is_separator(line[end])) ++end;
-    words.push_back(line.substr(i, end - i));
-    i = end;
-  }
-  return words;
-}
-
-char upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
-
-bool same_name(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](char x, char y) { return upper(x) == upper(y); });
-}
-
-std::string names_of(const std::vector<Column>& columns) {
-  std::string names;
-  for (const Column& column : columns) names += (names.empty() ? "" : " ") + column.name;
-  return printable(names);
-}
-
-// `B30`, or `S1=30` for names that are longer than a letter. Returns the column.
-tl::expected<std::pair<std::size_t, double>, std::string> named_value(
-    std::string_view word, const std::vector<Column>& columns) {
-  const std::size_t equals = word.find('=');
-  const std::string_view name = word.substr(0, equals == word.npos ? 1 : equals);
-  const auto value = number_of(word.substr(equals == word.npos ? 1 : equals + 1));
-  for (std::size_t i = 0; i < columns.size() && value; ++i)
-    if (same_name(columns[i].name, name)) return std::pair(i, *value);
-  return unexpected("'" + printable(word) + "' is neither a number nor one of the words " +
-                    names_of(columns) + " with a number, like " + printable(columns[0].name) +
-                    (columns[0].name.size() == 1 ? "" : "=") + "12.5");
-}
-
-// Values in the user's units, by column.
-RowOrReason read_row(std::string_view line, const std::vector<Column>& columns) {
-  const std::vector<std::string_view> words = words_of(line);
-  Row row(columns.size());
-  std::vector<bool> given(columns.size(), false);
-  std::size_t plain = 0;
-  for (const std::string_view word : words) {
-    if (const auto value = number_of(word)) {
-      if (plain < columns.size()) row[plain] = *value;
-      ++plain;
-      continue;
-    }
-    const auto named = named_value(word, columns);
-    if (!named) return unexpected(named.error());
-    if (given[named->first])
-      return unexpected("'" + printable(columns[named->first].name) + "' is given twice");
-    given[named->first] = true;
-    row[named->first] = named->second;
-  }
-  if (plain == words.size() && plain != columns.size())
-    return unexpected("a row needs " + std::to_string(columns.size()) + " numbers (" +
-                      names_of(columns) + "), this one has " + std::to_string(plain));
-  if (plain == words.size()) return row;
-  if (plain > 0)
-    return unexpected("a row has either plain numbers or words with names, this one has both");
-  for (std::size_t i = 0; i < columns.size(); ++i)
-    if (!given[i]) return unexpected("'" + printable(columns[i].name) + "' is missing");
-  return row;
-}
-
-// ---- the three questions -----------------------------------------------------------------------
+// ---- the questions ------------------------------------------------------------------------------
 
 std::string reason_of(const machine::ReachError& error) { return error.reason; }
 
@@ -270,6 +154,7 @@ RowOrReason jacobian_row(const Machine& machine, const Row& row) {
 
 int kin_command(const KinArguments& a) {
   using Action = KinArguments::Action;
+  if (a.action == Action::rot) return rot_command(a);
   Job job;
   ProgramArguments inputs;
   inputs.machine = a.machine;
@@ -301,28 +186,15 @@ int kin_command(const KinArguments& a) {
         if (a.tool_vector) return vector_rows(machine, row).map(text_of_all);
         return inverse_row(machine, row).map(text_of);
       case Action::jac:
+      case Action::rot:
         break;
     }
     return jacobian_row(machine, row).map(text_of);
   };
-  std::string_view rest = (*input)->content();
-  if (rest.empty()) {
-    print_error(make_error("input", "no rows on standard input; a row is " + names_of(columns)),
-                a.color);
-    return code(ExitCode::unknown);
-  }
-  bool good = true;
-  while (!rest.empty()) {
-    const std::size_t end = rest.find('\n');
-    const TextOrReason out = read_row(rest.substr(0, end), columns).and_then(answer);
-    rest = end == rest.npos ? std::string_view() : rest.substr(end + 1);
-    good = good && out.has_value();
-    if (out)
-      std::puts(out->c_str());
-    else
-      std::printf("error: %s\n", out.error().c_str());
-  }
-  return code(good ? ExitCode::pass : ExitCode::fail);
+  return answer_rows((*input)->content(), names_of(columns), a.color,
+                     [&](std::string_view line) -> TextOrReason {
+                       return read_row(line, columns).and_then(answer);
+                     });
 }
 
 }  // namespace aircut::cli

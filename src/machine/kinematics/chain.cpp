@@ -25,6 +25,7 @@
 
 #include "machine/kinematics/kinematics_table.h"
 #include "machine/kinematics/slope_bound.h"
+#include "machine/rotation/two_turns.h"
 
 namespace aircut::machine {
 
@@ -357,36 +358,6 @@ class Chain final : public Kinematics {
   std::vector<ChainCouple> way_;
   std::size_t linear_begin_ = 0, linear_end_ = 0;  ///< the first linear couples of way_
 };
-
-// Angle about u that brings a to b (their parts across u); nothing when one of them is along u.
-std::optional<double> angle_about(const Vec3& u, const Vec3& a, const Vec3& b) {
-  const Vec3 p = a - u.dot(a) * u, q = b - u.dot(b) * u;
-  if (p.norm() < 1e-9 || q.norm() < 1e-9) return std::nullopt;
-  return std::atan2(u.dot(p.cross(q)), p.dot(q));
-}
-
-// R(u1, t1) · R(u2, t2) · p = q (Paden and Kahan's second problem, kinematics.md d.5): the vector z
-// between the two turns has known parts along u1, u2, and up to a sign along u1 × u2.
-std::vector<std::pair<std::optional<double>, std::optional<double>>> two_turns(const Vec3& u1,
-                                                                               const Vec3& u2,
-                                                                               const Vec3& p,
-                                                                               const Vec3& q) {
-  const double g = u1.dot(u2);
-  const Vec3 across = u1.cross(u2);
-  if (across.norm() < 1e-9) return {};
-  const double alpha = (g * u2.dot(p) - u1.dot(q)) / (g * g - 1);
-  const double beta = (g * u1.dot(q) - u2.dot(p)) / (g * g - 1);
-  double gamma2 = (1 - alpha * alpha - beta * beta - 2 * alpha * beta * g) / across.squaredNorm();
-  if (gamma2 < -1e-12) return {};
-  const double gamma = std::sqrt(std::max(gamma2, 0.0));
-  std::vector<std::pair<std::optional<double>, std::optional<double>>> out;
-  for (const double sign : {1.0, -1.0}) {
-    const Vec3 z = alpha * u1 + beta * u2 + sign * gamma * across;
-    out.emplace_back(angle_about(u1, z, q), angle_about(u2, p, z));
-    if (gamma < 1e-9) break;
-  }
-  return out;
-}
 
 std::vector<JointVector> Chain::positions(const Vec3& tip, const Vec3& axis,
                                           const AxisValues& tool_offset,
