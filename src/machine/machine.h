@@ -227,6 +227,22 @@ struct Fixture {
   std::vector<Body> bodies;   ///< X_LB: seen from the fixture's own origin
 };
 
+enum class StockShape : unsigned char { box, cylinder, mesh };
+
+/// The raw piece of a job. Its frame S: a box stands on z = 0, its middle at the origin; a cylinder
+/// or tube stands on z = 0 about the Z axis; a mesh is as in its file.
+struct RawStock {
+  StockShape shape = StockShape::box;
+  Vec3 size = Vec3::Zero();                   ///< of a box, mm
+  double diameter = 0, bore = 0, height = 0;  ///< of a cylinder, mm; bore > 0: a tube
+  std::shared_ptr<const TriangleMesh> mesh;   ///< its closed surface in S, for every shape
+  LinkId link = bed_link;                     ///< the link that carries it
+  Pose X_LS = Pose::Identity();               ///< S seen from that link
+  std::optional<double> pitch;                ///< of the lattice that it is cut on, mm
+  Color color{207, 178, 122};
+  SourceSpan span;
+};
+
 /// Scratch space of forward(); the caller keeps it.
 struct LinkPoses {
   std::vector<Pose> X_WL;  ///< by LinkId
@@ -248,6 +264,8 @@ class Machine {
   const std::vector<Body>& bodies() const { return bodies_; }
   const std::vector<Exclusion>& exclusions() const { return exclusions_; }
   const std::vector<Fixture>& fixtures() const { return fixtures_; }
+  /// The raw piece that a setup put on; it is among bodies(), too, with the role `stock`.
+  const std::optional<RawStock>& stock() const { return stock_; }
   const Kinematics& kinematics() const { return *kinematics_; }
   const Spindle& spindle() const { return spindle_; }
   const ToolChange& tool_change() const { return tool_change_; }
@@ -270,6 +288,7 @@ class Machine {
   std::vector<Body> bodies_;
   std::vector<Exclusion> exclusions_;
   std::vector<Fixture> fixtures_;  ///< whose bodies are in bodies_, after the machine's own
+  std::optional<RawStock> stock_;
   std::shared_ptr<const Kinematics> kinematics_;
   Spindle spindle_;
   ToolChange tool_change_;
@@ -326,8 +345,21 @@ struct SetupFixture {
   SourceSpan span;
 };
 
+/// `[stock]` of a setup, before it is placed.
+struct SetupStock {
+  RawStock raw;           ///< shape and sizes; `mesh` only once it is placed
+  std::string mesh_path;  ///< of a mesh, relative to the setup's folder
+  MeshFileOptions mesh_options;
+  std::string fixture;  ///< whose frame `place` and `angle` are seen from; empty: M
+  SourceSpan fixture_span;
+  Vec3 place = Vec3::Zero();  ///< of its origin, mm
+  double angle = 0;           ///< about Z, rad
+};
+
 /// What a job adds to the machine.
 struct Setup {
+  std::string folder;  ///< of its file; paths start here
+  std::optional<SetupStock> stock;
   std::vector<SetupFixture> fixtures;
   std::map<int, AxisValues> offsets;  ///< 1 = G54 … 9 = G59.3
   std::optional<JointVector> start;

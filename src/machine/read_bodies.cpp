@@ -13,21 +13,6 @@ namespace {
 constexpr double deg = std::numbers::pi / 180;
 constexpr std::size_t max_triangles = 20'000'000;  // of a machine (product limits)
 
-Color read_color(config::Table& table) {
-  const auto text = table.text("color");
-  if (!text) return {};
-  unsigned rgb = 0;
-  const char* end = text->data() + text->size();
-  if (text->size() == 7 && text->front() == '#' &&
-      std::from_chars(text->data() + 1, end, rgb, 16).ptr == end)
-    return {static_cast<unsigned char>(rgb >> 16), static_cast<unsigned char>(rgb >> 8 & 255u),
-            static_cast<unsigned char>(rgb & 255u)};
-  table.error("color",
-              "'color' is written \"#rrggbb\" with two hexadecimal digits each, like "
-              "\"#8a8f94\"");
-  return {};
-}
-
 // [x, y, z] or [x, y, z, a, b, c]: degrees, turned about the fixed X, then Y, then Z axis.
 Pose read_pose(config::Table& table, double unit_mm) {
   const auto values = table.numbers("pose", 0);
@@ -50,19 +35,8 @@ Pose read_pose(config::Table& table, double unit_mm) {
   return X;
 }
 
-double read_mesh_unit(config::Table& table, double unit_mm) {
-  const std::string unit = table.choice("unit", {"mm", "cm", "m", "inch"}, "");
-  return unit == "mm"     ? 1
-         : unit == "cm"   ? 10
-         : unit == "m"    ? 1000
-         : unit == "inch" ? 25.4
-                          : unit_mm;
-}
-
 std::shared_ptr<const TriangleMesh> load_mesh(config::Table& table, ReadState& state) {
-  MeshFileOptions options;
-  options.unit_mm = read_mesh_unit(table, state.unit_mm);
-  options.y_up = table.choice("up", {"z", "y"}, "z") == "y";
+  const MeshFileOptions options = read_mesh_options(table, state.unit_mm);
   const std::string path = table.required_text("mesh");
   if (!table.has("mesh") || path.empty()) {
     if (table.has("mesh") && table.text("mesh"))
@@ -93,6 +67,33 @@ void check_name(config::Table& table, const std::string& key, const std::string&
 }
 
 }  // namespace
+
+Color read_color(config::Table& table, Color fallback) {
+  const auto text = table.text("color");
+  if (!text) return fallback;
+  unsigned rgb = 0;
+  const char* end = text->data() + text->size();
+  if (text->size() == 7 && text->front() == '#' &&
+      std::from_chars(text->data() + 1, end, rgb, 16).ptr == end)
+    return {static_cast<unsigned char>(rgb >> 16), static_cast<unsigned char>(rgb >> 8 & 255u),
+            static_cast<unsigned char>(rgb & 255u)};
+  table.error("color",
+              "'color' is written \"#rrggbb\" with two hexadecimal digits each, like "
+              "\"#8a8f94\"");
+  return {};
+}
+
+MeshFileOptions read_mesh_options(config::Table& table, double unit_mm) {
+  MeshFileOptions options;
+  const std::string unit = table.choice("unit", {"mm", "cm", "m", "inch"}, "");
+  options.unit_mm = unit == "mm"     ? 1
+                    : unit == "cm"   ? 10
+                    : unit == "m"    ? 1000
+                    : unit == "inch" ? 25.4
+                                     : unit_mm;
+  options.y_up = table.choice("up", {"z", "y"}, "z") == "y";
+  return options;
+}
 
 std::vector<Body> read_bodies(config::Table& top, const std::string& prefix, LinkId link,
                               ReadState& state) {

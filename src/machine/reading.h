@@ -53,6 +53,17 @@ void place_fixtures(Machine& machine);
 LinkId read_link(config::Table& table, const std::string& key, const std::string& fallback,
                  const Machine& machine);
 
+/// `[stock]` of a setup; nothing when there is none or it is wrong (then the table has the errors).
+std::optional<SetupStock> read_stock(config::Table& top, double unit_mm);
+/// Puts it on the machine, whose fixtures are placed: its surface and its body. Problems go to
+/// `out`.
+void place_stock(const SetupStock& stock, const PackageFiles& files, Machine& machine,
+                 Diagnostics& out);
+/// `color = "#rrggbb"`.
+Color read_color(config::Table& table, Color fallback = {});
+/// `unit` and `up` of a mesh file.
+MeshFileOptions read_mesh_options(config::Table& table, double unit_mm);
+
 /// Compares the kinematics with the link tree at home and at random joints: a model that draws one
 /// machine and drives another is refused. Nothing when they agree, else the reason.
 std::optional<std::string> tree_disagrees(const Machine& machine);

@@ -101,7 +101,7 @@ Expected<Setup> read_setup_text(const SourceText& text, const Machine& machine, 
   setup.fixtures = read_fixtures(top, unit_mm);
   setup.offsets = read_offsets(top, unit_mm);
   setup.start = read_start(top, machine, unit_mm);
-  refuse(top, "stock", "[stock]");
+  setup.stock = read_stock(top, unit_mm);
   refuse(top, "part", "'part'");
   refuse(top, "probe", "[probe]");
   const Diagnostics problems = reader.finish();
@@ -113,9 +113,15 @@ Expected<Setup> read_setup_text(const SourceText& text, const Machine& machine, 
 Expected<Setup> read_setup(const std::string& path, const Machine& machine, SourceMap& sources,
                            Diagnostics& out) {
   const auto text = sources.open(path);
-  if (text) return read_setup_text(**text, machine, out);
-  out.add(text.error());
-  return unexpected(text.error());
+  if (!text) {
+    out.add(text.error());
+    return unexpected(text.error());
+  }
+  auto setup = read_setup_text(**text, machine, out);
+  if (!setup) return setup;
+  const std::size_t slash = path.find_last_of('/');
+  setup->folder = slash == std::string::npos ? "." : path.substr(0, slash);
+  return setup;
 }
 
 Expected<std::shared_ptr<const Machine>> apply_setup(const Machine& machine, const Setup& setup,
@@ -143,8 +149,9 @@ Expected<std::shared_ptr<const Machine>> apply_setup(const Machine& machine, con
     at->angle = wanted.angle.value_or(at->angle);
   }
   place_fixtures(*changed);
+  if (setup.stock) place_stock(*setup.stock, disk_files(setup.folder, sources), *changed, out);
   if (out.errors() == errors_before) return std::shared_ptr<const Machine>(changed);
-  return unexpected(make_error("setup_invalid", "the setup's fixtures can't be placed"));
+  return unexpected(make_error("setup_invalid", "the setup can't be put on the machine"));
 }
 
 }  // namespace aircut::machine

@@ -24,17 +24,19 @@ struct Piece {
 struct Tool {
   int number = 0;
   int pocket = 0;
-  std::string name;           ///< "10 mm 3-flute end mill"
-  AxisValues offset;          ///< length offset of the tool table (G43 H), mm and rad
-  double diameter = 0;        ///< mm, of the tool table (G41 D)
-  double front_angle = 0;     ///< rad, lathe
-  double back_angle = 0;      ///< rad, lathe
-  int orientation = 0;        ///< 0-9, lathe
-  std::vector<Piece> pieces;  ///< from the tip up; empty: no geometry is known
-  double gauge_length = 0;    ///< tip to gauge face, mm; 0 when there is no geometry
-  double flute_length = 0;    ///< mm
-  double max_rpm = 0;         ///< 0: no limit given
-  SourceSpan span;            ///< where it was defined
+  std::string name;            ///< "10 mm 3-flute end mill"
+  AxisValues offset;           ///< length offset of the tool table (G43 H), mm and rad
+  double diameter = 0;         ///< mm, of the tool table (G41 D)
+  double front_angle = 0;      ///< rad, lathe
+  double back_angle = 0;       ///< rad, lathe
+  int orientation = 0;         ///< 0-9, lathe
+  std::vector<Piece> pieces;   ///< from the tip up; empty: no geometry is known
+  double gauge_length = 0;     ///< tip to gauge face, mm; 0 when there is no geometry
+  double flute_length = 0;     ///< mm
+  double max_rpm = 0;          ///< 0: no limit given
+  bool center_cutting = true;  ///< false: it can't be moved into solid stock along its axis
+  bool left_hand = false;      ///< it cuts turning counter-clockwise (M4)
+  SourceSpan span;             ///< where it was defined
 };
 
 struct ToolTable {

@@ -250,6 +250,8 @@ Tool read_tool(Context& context, Table table, std::set<int>& numbers) {
     if (*rpm <= 0) in.fail("max_rpm", "'max_rpm' needs more than 0");
     tool.max_rpm = *rpm;
   }
+  tool.center_cutting = table.boolean("center_cutting", true);
+  tool.left_hand = table.choice("hand", {"right", "left"}, "right") == "left";
   if (kind.empty()) {  // which keys it may have is not known then
     for (const std::string& key : table.keys()) table.know(key);
     return tool;

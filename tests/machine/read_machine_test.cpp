@@ -201,6 +201,83 @@ TEST(Setup, PlacesFixturesOffsetsAndStart) {
   EXPECT_EQ(machine->bodies().size(), 4u);  // the machine itself is as it was
 }
 
+// The machine of `everything` with this setup on it, or the messages.
+std::shared_ptr<const Machine> with_setup(const Machine& machine, SourceMap& sources,
+                                          const std::string& text, std::string& messages) {
+  static int number = 0;
+  const std::string path =
+      testing::TempDir() + "/aircut-setup-stock-" + std::to_string(++number) + ".toml";
+  EXPECT_TRUE(write_file(path, text));
+  Diagnostics out;
+  const auto setup = read_setup(path, machine, sources, out);
+  std::shared_ptr<const Machine> placed;
+  if (setup)
+    if (auto made = apply_setup(machine, *setup, sources, out)) placed = *made;
+  for (const Diagnostic& d : out.list())
+    messages += std::to_string(d.span.line) + ": " + d.message + "\n";
+  return placed;
+}
+
+TEST(Setup, PutsTheRawPieceWhereItSays) {
+  SourceMap sources;
+  const auto machine = everything(sources);
+  ASSERT_TRUE(machine);
+  std::string messages;
+  const auto placed = with_setup(*machine, sources,
+                                 "[[fixture]]\nname = \"plate\"\nplace = [10, 0, 0]\n"
+                                 "angle = 90\n[stock]\nbox = [40, 30, 20]\nplace = [1, 2, 3]\n"
+                                 "fixture = \"plate\"\npitch = 0.1\n",
+                                 messages);
+  ASSERT_TRUE(placed) << messages;
+  ASSERT_TRUE(placed->stock());
+  const Body& body = placed->bodies().back();
+  EXPECT_EQ(body.name, "stock");
+  EXPECT_EQ(body.role, Role::stock);
+  EXPECT_NEAR(volume(*body.mesh), 40 * 30 * 20, 1e-9);
+  const Pose X_ML = machine->X_LM().inverse();
+  // The plate is turned by 90°: its (1, 2) is (−2, 1) of M.
+  EXPECT_TRUE((X_ML * body.X_LB * Vec3(0, 0, 0)).isApprox(Vec3(8, 1, 3)));
+  EXPECT_TRUE((X_ML * body.X_LB * Vec3(20, 15, 0)).isApprox(Vec3(-7, 21, 3)));
+  EXPECT_EQ(placed->stock()->pitch, 0.1);
+}
+
+TEST(Setup, KnowsTubesAndCylinders) {
+  SourceMap sources;
+  const auto machine = everything(sources);
+  ASSERT_TRUE(machine);
+  for (const auto& [shape, exact] : std::vector<std::pair<std::string, double>>{
+           {"cylinder = [40, 50]", pi * 400 * 50}, {"tube = [40, 20, 50]", pi * 300 * 50}}) {
+    std::string messages;
+    const auto placed = with_setup(*machine, sources, "[stock]\n" + shape + "\n", messages);
+    ASSERT_TRUE(placed) << messages;
+    const TriangleMesh& mesh = *placed->bodies().back().mesh;
+    EXPECT_NEAR(volume(mesh), exact, 2e-3 * exact) << shape;
+    for (const Shell& shell : shells(mesh)) EXPECT_TRUE(shell.closed) << shape;
+  }
+}
+
+TEST(Setup, RefusesARawPieceThatIsNone) {
+  SourceMap sources;
+  const auto machine = everything(sources);
+  ASSERT_TRUE(machine);
+  const auto says = [&](const std::string& text) {
+    std::string messages;
+    EXPECT_FALSE(with_setup(*machine, sources, text, messages)) << text;
+    return messages;
+  };
+  EXPECT_NE(says("[stock]\nplace = [1, 2, 3]\n").find("needs one shape"), std::string::npos);
+  EXPECT_NE(says("[stock]\nbox = [1, 2, 3]\ncylinder = [1, 2]\n").find("needs one shape"),
+            std::string::npos);
+  EXPECT_NE(says("[stock]\ntube = [10, 10, 5]\n").find("less than the diameter"),
+            std::string::npos);
+  EXPECT_NE(says("[stock]\nbox = [1, 2, 3]\nfixture = \"vice\"\n").find("no fixture 'vice'"),
+            std::string::npos);
+  EXPECT_NE(says("[stock]\nmesh = \"none.stl\"\n"), "");
+  EXPECT_NE(says("[stock]\nmesh = \"../x.stl\"\n"), "");
+  EXPECT_NE(says("[stock]\nbox = [1, 2, 3]\npitch = 20\n").find("0.001 to 10 mm"),
+            std::string::npos);
+}
+
 TEST(Setup, AFixtureThatIsNotPresentIsGone) {
   SourceMap sources;
   const auto machine = everything(sources);
@@ -221,11 +298,11 @@ TEST(Setup, SaysWhatIsWrongWhere) {
   const auto machine = everything(sources);
   ASSERT_TRUE(machine);
   EXPECT_EQ(setup_errors(*machine, sources,
-                         "[stock]\nbox = [1, 2, 3]\n[probe]\n"
+                         "[stock]\nbox = [1, 0, 3]\n[probe]\n"
                          "[[fixture]]\nname = \"vise\"\nplce = [1, 2]\n"
                          "[offsets]\nG54 = [1, 2]\nG60 = [1, 2, 3]\n"
                          "[start]\njoints = { slde = 1, ram = 9.5 }\n"),
-            "1:1 [stock] is not supported by this version [setup_invalid]\n"
+            "2:7 the sizes of 'box' must be above 0 and up to 100 m [setup_invalid]\n"
             "3:1 [probe] is not supported by this version [setup_invalid]\n"
             "6:1 unknown key 'plce'. Did you mean 'place'? [setup_invalid]\n"
             "8:7 'G54' needs 3 to 9 numbers in the order X Y Z A B C U V W [setup_invalid]\n"
