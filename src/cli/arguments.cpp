@@ -94,9 +94,9 @@ void add_checks(CLI::App* app, std::vector<std::string>& checks,
       ->check([=](const std::string& word) -> std::string {
         if (std::find(existing.begin(), existing.end(), word) != existing.end()) return "";
         const std::string there_are = "; this command has " + words;
-        if (word == "dynamics" || word == "cut")
-          return "the check '" + word + "' does not exist yet" + there_are;
-        if (word == "collision") return "aircut run looks for collisions" + there_are;
+        if (word == "dynamics") return "the check '" + word + "' does not exist yet" + there_are;
+        if (word == "collision" || word == "cut")
+          return "only aircut run has the check '" + word + "'" + there_are;
         return "there is no check '" + printable(word) + "'." + did_you_mean(word, existing) +
                there_are;
       })
@@ -205,7 +205,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_run->add_option("--near", run.near, "tell approaches closer than this, mm (default 2; 0 = off)")
       ->check(CLI::Range(0.0, 1000.0).description(""))
       ->type_name("MM");
-  add_checks(c_run, run.checks, {"all", "syntax", "semantics", "limits", "collision"});
+  add_checks(c_run, run.checks, {"all", "syntax", "semantics", "limits", "collision", "cut"});
   c_run
       ->add_option("--frames", run.frames,
                    "every=2s, at=12.5,80, line=128, tool-change, finding, count=24 (repeatable; "

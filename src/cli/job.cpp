@@ -163,7 +163,7 @@ Checks asked_for(const std::vector<std::string>& words) {
     return std::find(words.begin(), words.end(), word) != words.end();
   };
   if (words.empty() || has("all")) return {};
-  return {has("semantics"), has("limits"), has("collision")};
+  return {has("semantics"), has("limits"), has("collision"), has("cut")};
 }
 
 Expected<report::Rules> rules_of(const OutputArguments& output, SourceMap& sources) {

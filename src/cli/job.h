@@ -48,7 +48,7 @@ std::vector<std::string> package_folders();
 
 /// What --check asks for. Syntax is always looked at.
 struct Checks {
-  bool semantics = true, limits = true, collision = true;
+  bool semantics = true, limits = true, collision = true, cut = true;
 };
 Checks asked_for(const std::vector<std::string>& words);
 

@@ -77,6 +77,7 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
     fs::remove(folder + "/result.json", error);
     fs::remove(folder + "/joints.csv", error);
     fs::remove(folder + "/sheet.png", error);
+    fs::remove(folder + "/part.stl", error);
     if (fs::is_directory(folder + "/frames", error))
       for (const auto& entry : fs::directory_iterator(folder + "/frames", error))
         if (entry.path().extension() == ".png") fs::remove(entry.path(), error);
@@ -149,9 +150,12 @@ int run_command(const RunArguments& a) {
                                   sub_reader(job.sources), diagnostics);
   plan::Planner planner(machine, job.start, {.period = a.period});
   const Checks checks = asked_for(a.checks);
-  sim::Simulator simulator(
-      job.machine, job.tools, job.start,
-      {.limits = checks.limits, .collision = checks.collision, .near = a.near});
+  sim::Simulator simulator(job.machine, job.tools, job.start,
+                           {.limits = checks.limits,
+                            .collision = checks.collision,
+                            .cut = checks.cut,
+                            .keep_cuts = !a.folder.empty() && frames->spec.any(),
+                            .near = a.near});
 
   std::unique_ptr<log::CsvJointLog> log;
   std::string log_path = a.log;
@@ -206,6 +210,7 @@ int run_command(const RunArguments& a) {
   if (checks.semantics) report.checks.push_back("semantics");
   if (checks.limits) report.checks.push_back("limits");
   if (checks.collision) report.checks.push_back("collision");
+  if (checks.cut && machine.stock()) report.checks.push_back("cut");
   report.settings = {{"near_mm", a.near},
                      {"period_s", a.period},
                      {"resolution_mm", machine.collision_tolerance()}};
@@ -247,7 +252,15 @@ int run_command(const RunArguments& a) {
     if (auto written = log->result(); !written) return fail(written.error());
     if (a.log.empty()) report.outputs.push_back("joints.csv");
   }
+  if (const auto part = a.folder.empty() ? std::nullopt : simulator.part()) {
+    if (auto written = write_file(a.folder + "/part.stl", stl_bytes(*part)); !written)
+      return fail(written.error());
+    report.outputs.push_back("part.stl");
+  }
   if (pictures && stop_signal == 0) {
+    auto history = simulator.stock_history();
+    if (!history) return fail(history.error());
+    pictures->set_stock(std::move(*history));
     const auto written = pictures->write(a.folder, report.findings);
     if (!written) return fail(written.error());
     report.outputs.insert(report.outputs.end(), written->begin(), written->end());

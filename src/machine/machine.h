@@ -350,6 +350,8 @@ struct SetupStock {
   RawStock raw;           ///< shape and sizes; `mesh` only once it is placed
   std::string mesh_path;  ///< of a mesh, relative to the setup's folder
   MeshFileOptions mesh_options;
+  std::string replaces;  ///< a body that only stands for the piece in pictures; it goes
+  SourceSpan replaces_span;
   std::string fixture;  ///< whose frame `place` and `angle` are seen from; empty: M
   SourceSpan fixture_span;
   Vec3 place = Vec3::Zero();  ///< of its origin, mm

@@ -1,4 +1,5 @@
 // The raw piece of a job: `[stock]` of a setup.toml, and its place on the machine.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -106,6 +107,8 @@ std::optional<SetupStock> read_stock(config::Table& top, double unit_mm) {
   stock.angle = table->number("angle", 0) * deg;
   stock.fixture = table->text("fixture", "");
   stock.fixture_span = table->has("fixture") ? table->span("fixture") : table->span();
+  stock.replaces = table->text("replaces", "");
+  stock.replaces_span = table->has("replaces") ? table->span("replaces") : table->span();
   stock.raw.color = read_color(*table, stock.raw.color);
   stock.raw.span = table->span();
   if (const auto pitch = table->number("pitch")) {
@@ -155,6 +158,18 @@ void place_stock(const SetupStock& stock, const PackageFiles& files, Machine& ma
     raw.mesh = *mesh;
   } else {
     raw.mesh = surface(raw);
+  }
+  if (!stock.replaces.empty()) {
+    std::vector<std::string> drawn;
+    for (const Body& other : machine.bodies())
+      if (!other.collide) drawn.push_back(other.name);
+    if (std::find(drawn.begin(), drawn.end(), stock.replaces) == drawn.end())
+      return fail(stock.replaces_span,
+                  "'replaces' needs a body that is only drawn (collide = "
+                  "false), and '" +
+                      printable(stock.replaces) + "' is none." +
+                      did_you_mean(stock.replaces, drawn));
+    std::erase_if(machine.bodies_, [&](const Body& other) { return other.name == stock.replaces; });
   }
   for (const Body& other : machine.bodies())
     if (other.name == "stock")

@@ -44,7 +44,10 @@ double JointMotion::t0() const { return segment_->t_start; }
 double JointMotion::t1() const { return segment_->t_end(); }
 
 tl::expected<JointVector, ReachError> JointMotion::at(double t) const {
-  const double s = segment_->profile.at(t - segment_->t_start).s;
+  return at_path(segment_->profile.at(t - segment_->t_start).s);
+}
+
+tl::expected<JointVector, ReachError> JointMotion::at_path(double s) const {
   const AxisValues tip = plan::evaluate(segment_->path, s).p;
   return machine_->kinematics().inverse(Target{tip, segment_->tool_offset}, near_at(s));
 }

@@ -35,6 +35,8 @@ class JointMotion {
 
   /// Joints at program time t in [t0, t1].
   tl::expected<JointVector, machine::ReachError> at(double t) const;
+  /// Joints `s` mm along the segment's path.
+  tl::expected<JointVector, machine::ReachError> at_path(double s) const;
   /// Joints, speeds, accelerations.
   tl::expected<JointState, machine::ReachError> state_at(double t) const;
   AxisValues tip_at(double t) const;

@@ -12,13 +12,14 @@
 #include <cstring>
 #include <set>
 
+#include "report/path_recorder.h"
+
 namespace aircut::report {
 
 namespace {
 
 constexpr double degrees = 180 / M_PI;
-constexpr std::size_t most_moments = 4096;  // before thinning
-constexpr std::size_t most_path_points = 60'000;
+constexpr std::size_t most_moments = 4096;   // before thinning
 constexpr std::size_t most_frames = 10'000;  // of one run
 constexpr std::size_t most_finding_frames = 50;
 constexpr std::size_t most_sheet_cells = 24;
@@ -35,82 +36,6 @@ Snapshot snapshot_at(const sim::Step& step, double t) {
   }
   return shot;
 }
-
-struct PathPoint {
-  Vec3 p;  // M coordinates, mm
-  double t = 0;
-  plan::MotionKind kind = plan::MotionKind::idle;
-};
-
-// The tool path as a polyline of bounded size: when it is full, every second point goes and the
-// spacing doubles.
-class PathRecorder {
- public:
-  void add(const sim::Step& step) {
-    const plan::Segment& segment = step.segment;
-    if (std::holds_alternative<plan::Hold>(segment.path) || segment.duration() <= 0) return;
-    const double length = plan::length(segment.path);
-    const plan::MotionKind kind = std::holds_alternative<canon::Rapid>(segment.command.action)
-                                      ? plan::MotionKind::rapid
-                                      : segment.kind;
-    int pieces = 1;
-    if (const auto* arc = std::get_if<plan::Arc>(&segment.path)) {
-      constexpr double widest_chord = 6 / degrees;  // rad
-      pieces = std::clamp(static_cast<int>(std::ceil(std::abs(arc->angle) / widest_chord)), 2, 720);
-    } else if (std::holds_alternative<plan::Blend>(segment.path)) {
-      pieces = 6;
-    }
-    for (int i = points_.empty() ? 0 : 1; i <= pieces; ++i) {
-      const double t = segment.t_start + segment.duration() * i / pieces;
-      const AxisValues tip = plan::evaluate(segment.path, std::min(length, length * i / pieces)).p;
-      push({Vec3(tip[Axis::x], tip[Axis::y], tip[Axis::z]), t, kind});
-    }
-  }
-
-  // Runs of one kind, split at time `now` into done and to come.
-  std::vector<render::DrawLine> lines(const Pose& X_WM, double now) const {
-    std::vector<render::DrawLine> out;
-    for (std::size_t i = 1; i < points_.size(); ++i) {
-      const render::LineKind kind =
-          points_[i].t <= now ? render::LineKind::done : line_kind(points_[i].kind);
-      if (out.empty() || out.back().kind != kind) out.push_back({kind, {X_WM * points_[i - 1].p}});
-      out.back().points.push_back(X_WM * points_[i].p);
-    }
-    return out;
-  }
-
-  // Of the feed moves; of all moves when there are none.
-  Box3 box(const Pose& X_WM) const {
-    Box3 feed, all;
-    for (const PathPoint& point : points_) {
-      all.extend(X_WM * point.p);
-      if (point.kind != plan::MotionKind::rapid) feed.extend(X_WM * point.p);
-    }
-    return feed.isEmpty() ? all : feed;
-  }
-
- private:
-  static render::LineKind line_kind(plan::MotionKind kind) {
-    if (kind == plan::MotionKind::rapid) return render::LineKind::rapid;
-    if (kind == plan::MotionKind::arc) return render::LineKind::arc;
-    return render::LineKind::feed;
-  }
-
-  void push(const PathPoint& point) {
-    if (!points_.empty() && points_.back().kind == point.kind &&
-        (points_.back().p - point.p).norm() < spacing_)
-      return;
-    points_.push_back(point);
-    if (points_.size() < most_path_points) return;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < points_.size(); i += 2) points_[kept++] = points_[i];
-    points_.resize(kept);
-    spacing_ = std::max(0.02, spacing_ * 2);
-  }
-
-  std::vector<PathPoint> points_;
-  double spacing_ = 0.01;  // mm
-};
 
 Diagnostic usage(const std::string& message) { return make_error("usage", message); }
 
@@ -205,6 +130,16 @@ std::vector<render::DrawBody> draw_bodies(const sim::Scene& scene,
 }
 
 struct FrameMaker::Impl {
+  /// A picture to be drawn.
+  struct Job {
+    std::string name;
+    Snapshot shot;
+    std::string sheet_text;  ///< empty: not on the sheet
+    const sim::Finding* finding = nullptr;
+  };
+  std::vector<Job> jobs_of(std::vector<sim::Finding>& findings) const;
+  Expected<render::Image> draw(const Job& job, render::Renderer& renderer);
+
   Impl(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools,
        FrameOptions o)
       : scene(std::move(machine), tools), options(std::move(o)) {}
@@ -270,6 +205,13 @@ struct FrameMaker::Impl {
     if (scene.loaded_tool() != shot.tool) scene.load_tool(shot.tool);
     render::Scene out;
     out.bodies = draw_bodies(scene, shot.joints);
+    if (stock)
+      for (std::size_t i = 0, k = 0; i < scene.bodies().size(); ++i) {
+        const machine::Body& body = scene.bodies()[i].body;
+        if (!body.mesh) continue;
+        if (body.role == machine::Role::stock) out.bodies[k].mesh = stock->at(shot.t);
+        ++k;
+      }
     out.lines = path.lines(X_WM(shot.joints), shot.t);
     out.caption.left.push_back(printable(options.program));
     if (shot.span)
@@ -293,7 +235,8 @@ struct FrameMaker::Impl {
     return out;
   }
 
-  // What `work` looks at: the feed moves, the fixtures, and room for the tool above them.
+  // What `work` looks at: the feed moves, the stock (without one, the fixtures), and room for the
+  // tool above them.
   Box3 work_box(const Snapshot& shot, const render::Scene& drawn) const {
     constexpr double room_for_tool = 90;  // mm
     Box3 box = path.box(X_WM(shot.joints));
@@ -303,8 +246,8 @@ struct FrameMaker::Impl {
       if (!bodies[i].body.mesh) continue;
       const render::DrawBody& body = drawn.bodies[k++];
       const machine::Role role = bodies[i].body.role;
-      if (role == machine::Role::fixture || role == machine::Role::part ||
-          role == machine::Role::stock)
+      if (role == machine::Role::part || role == machine::Role::stock ||
+          (role == machine::Role::fixture && !scene.machine().stock()))
         box.extend(bounds(*body.mesh).transformed(body.X_WB));
     }
     return box;
@@ -329,6 +272,7 @@ struct FrameMaker::Impl {
   sim::Scene scene;
   FrameOptions options;
   PathRecorder path;
+  std::unique_ptr<sim::StockHistory> stock;
   std::vector<Snapshot> moments;
   double tick = 1.0 / 64, next_moment = 0;
   struct Named {
@@ -360,102 +304,125 @@ void FrameMaker::on_step(const sim::Step& step) {
   impl_->add_named(step);
 }
 
+void FrameMaker::set_stock(std::unique_ptr<sim::StockHistory> stock) {
+  impl_->stock = std::move(stock);
+}
+
+namespace {
+
+std::string four_digits(std::size_t number) {
+  std::string text = std::to_string(number);
+  return std::string(text.size() < 4 ? 4 - text.size() : 0, '0') + text;
+}
+
+Snapshot snapshot_of(const sim::Finding& f) {
+  Snapshot shot;
+  shot.t = f.t_worst;
+  shot.joints = f.joints_worst;
+  shot.tool = f.tool;
+  shot.span = f.span;
+  shot.kind = f.motion;
+  shot.feed = f.feed_actual;
+  return shot;
+}
+
+}  // namespace
+
+std::vector<FrameMaker::Impl::Job> FrameMaker::Impl::jobs_of(
+    std::vector<sim::Finding>& findings) const {
+  std::vector<Job> jobs;
+  const auto sheet_text = [](const Snapshot& shot) {
+    return "t = " + fixed(shot.t, 2) + " s" +
+           (shot.span ? "   line " + std::to_string(shot.span.line) : "");
+  };
+  if (options.spec.count)
+    for (const Snapshot& shot : evenly(*options.spec.count))
+      jobs.push_back({four_digits(jobs.size() + 1), shot, sheet_text(shot), nullptr});
+  for (const auto& item : named)
+    jobs.push_back(
+        {item.name, item.shot, options.spec.count ? "" : sheet_text(item.shot), nullptr});
+  if (!options.spec.findings) return jobs;
+  std::set<std::string> names;
+  std::map<int, std::string> picture_of;  // by episode
+  for (sim::Finding& f : findings) {
+    if (f.joints_worst.size() == 0 || f.severity < Severity::warning) continue;
+    if (const auto known = picture_of.find(f.episode); known != picture_of.end()) {
+      f.picture = known->second;
+      continue;
+    }
+    if (names.size() >= most_finding_frames) continue;
+    const std::string line = std::to_string(f.span.line);
+    const std::string stem = file_name_part(sim::to_string(f.kind)) + "-L" + line;
+    std::string name = stem;
+    for (int i = 2; !names.insert(name).second; ++i) name = stem + "-" + std::to_string(i);
+    jobs.push_back(
+        {name, snapshot_of(f), std::string(sim::to_string(f.kind)) + "   line " + line, &f});
+    f.picture = picture_of[f.episode] = "frames/" + name + ".png";
+  }
+  return jobs;
+}
+
+Expected<render::Image> FrameMaker::Impl::draw(const Job& job, render::Renderer& renderer) {
+  render::Scene drawn = picture(job.shot);
+  if (!job.finding) {
+    const auto camera = camera_for(job.shot, drawn);
+    if (!camera) return unexpected(camera.error());
+    return renderer.draw(drawn, *camera);
+  }
+  const sim::Finding& f = *job.finding;
+  drawn.caption.alarm = std::string(to_string(f.severity)) + ": " + printable(f.message);
+  for (render::DrawBody& body : drawn.bodies)
+    body.highlight = body.name == f.body_a || body.name == f.body_b;
+  for (const Vec3& point : f.points) drawn.markers.push_back({point});
+  if (!f.points.empty()) {
+    constexpr double span = 260;  // mm across: a tool, its holder and what it met
+    return renderer.draw(drawn, renderer.camera_for_finding(drawn.bodies, f.points.front(), span));
+  }
+  // No contact: the place on the path, seen as the other frames see the work.
+  drawn.markers.push_back(
+      {X_WM(f.joints_worst) * Vec3(f.tip[Axis::x], f.tip[Axis::y], f.tip[Axis::z])});
+  const auto camera = camera_for(job.shot, drawn);
+  if (!camera) return unexpected(camera.error());
+  return renderer.draw(drawn, *camera);
+}
+
 Expected<std::vector<std::string>> FrameMaker::write(const std::string& folder,
                                                      std::vector<sim::Finding>& findings) {
   Impl& impl = *impl_;
-  std::vector<std::string> written;
   auto renderer = render::Renderer::create(impl.options.size);
   if (!renderer) return unexpected(renderer.error());
   if (auto made = make_folder(folder + "/frames"); !made) return unexpected(made.error());
 
-  std::vector<render::SheetCell> cells;
-  const auto save = [&](const std::string& name, const render::Image& image) -> Expected<void> {
-    const std::string relative = "frames/" + name + ".png";
-    if (auto done = write_file(folder + "/" + relative, render::png_bytes(image)); !done)
-      return done;
-    written.push_back(relative);
-    return {};
-  };
-  const auto draw = [&](const std::string& name, const Snapshot& shot,
-                        bool in_sheet) -> Expected<void> {
-    const render::Scene drawn = impl.picture(shot);
-    const auto camera = impl.camera_for(shot, drawn);
-    if (!camera) return unexpected(camera.error());
-    const render::Image image = renderer->draw(drawn, *camera);
-    if (in_sheet && cells.size() < most_sheet_cells)
-      cells.push_back({image, "t = " + fixed(shot.t, 2) + " s" +
-                                  (shot.span ? "   line " + std::to_string(shot.span.line) : "")});
-    return save(name, image);
-  };
-
-  if (impl.options.spec.count) {
-    int number = 0;
-    for (const Snapshot& shot : impl.evenly(*impl.options.spec.count)) {
-      std::string index = std::to_string(++number);
-      index.insert(0, index.size() < 4 ? 4 - index.size() : 0, '0');
-      if (auto done = draw(index, shot, true); !done) return unexpected(done.error());
-    }
+  const std::vector<Impl::Job> jobs = impl.jobs_of(findings);
+  std::vector<std::string> written;
+  std::map<std::size_t, render::SheetCell> cells;  // by job
+  std::vector<std::size_t> in_time(jobs.size());   // the stock is cut once, from first to last
+  std::size_t sheet_cells = 0;
+  std::vector<bool> in_sheet;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    in_time[i] = i;
+    written.push_back("frames/" + jobs[i].name + ".png");
+    in_sheet.push_back(!jobs[i].sheet_text.empty() && sheet_cells < most_sheet_cells);
+    sheet_cells += in_sheet.back() ? 1 : 0;
   }
-  for (const auto& item : impl.named)
-    if (auto done = draw(item.name, item.shot, !impl.options.spec.count); !done)
+  std::stable_sort(in_time.begin(), in_time.end(),
+                   [&](std::size_t a, std::size_t b) { return jobs[a].shot.t < jobs[b].shot.t; });
+  for (const std::size_t i : in_time) {
+    auto image = impl.draw(jobs[i], *renderer);
+    if (!image) return unexpected(image.error());
+    if (auto done = write_file(folder + "/" + written[i], render::png_bytes(*image)); !done)
       return unexpected(done.error());
-
-  if (impl.options.spec.findings) {
-    std::set<std::string> names;
-    std::map<int, std::string> picture_of;  // by episode
-    for (sim::Finding& f : findings) {
-      if (f.joints_worst.size() == 0 || f.severity < Severity::warning) continue;
-      if (const auto known = picture_of.find(f.episode); known != picture_of.end()) {
-        f.picture = known->second;
-        continue;
-      }
-      if (names.size() >= most_finding_frames) continue;
-      std::string name =
-          file_name_part(sim::to_string(f.kind)) + "-L" + std::to_string(f.span.line);
-      for (int i = 2; !names.insert(name).second; ++i)
-        name = file_name_part(sim::to_string(f.kind)) + "-L" + std::to_string(f.span.line) + "-" +
-               std::to_string(i);
-      Snapshot shot;
-      shot.t = f.t_worst;
-      shot.joints = f.joints_worst;
-      shot.tool = f.tool;
-      shot.span = f.span;
-      shot.kind = f.motion;
-      shot.feed = f.feed_actual;
-      render::Scene drawn = impl.picture(shot);
-      drawn.caption.alarm = std::string(to_string(f.severity)) + ": " + printable(f.message);
-      for (render::DrawBody& body : drawn.bodies)
-        body.highlight = body.name == f.body_a || body.name == f.body_b;
-      for (const Vec3& point : f.points) drawn.markers.push_back({point});
-      render::Camera camera;
-      if (!f.points.empty()) {
-        constexpr double span = 260;  // mm across: a tool, its holder and what it met
-        camera = renderer->camera_for_finding(drawn.bodies, f.points.front(), span);
-      } else {
-        // No contact: the place on the path, seen as the other frames see the work.
-        drawn.markers.push_back(
-            {impl.X_WM(f.joints_worst) * Vec3(f.tip[Axis::x], f.tip[Axis::y], f.tip[Axis::z])});
-        const auto work = impl.camera_for(shot, drawn);
-        if (!work) return unexpected(work.error());
-        camera = *work;
-      }
-      const render::Image image = renderer->draw(drawn, camera);
-      if (auto done = save(name, image); !done) return unexpected(done.error());
-      f.picture = written.back();
-      picture_of[f.episode] = f.picture;
-      if (cells.size() < most_sheet_cells)
-        cells.push_back({image, std::string(sim::to_string(f.kind)) + "   line " +
-                                    std::to_string(f.span.line)});
-    }
+    if (in_sheet[i]) cells[i] = {std::move(*image), jobs[i].sheet_text};
   }
-  if (!cells.empty()) {
-    const int columns = cells.size() <= 4 ? 2 : cells.size() <= 9 ? 3 : 4;
-    const render::Image sheet =
-        render::contact_sheet(cells, columns, 640, printable(impl.options.program));
-    if (auto done = write_file(folder + "/sheet.png", render::png_bytes(sheet)); !done)
-      return unexpected(done.error());
-    written.push_back("sheet.png");
-  }
+  if (cells.empty()) return written;
+  std::vector<render::SheetCell> sheet;
+  for (auto& [job, cell] : cells) sheet.push_back(std::move(cell));
+  const int columns = sheet.size() <= 4 ? 2 : sheet.size() <= 9 ? 3 : 4;
+  const render::Image image =
+      render::contact_sheet(sheet, columns, 640, printable(impl.options.program));
+  if (auto done = write_file(folder + "/sheet.png", render::png_bytes(image)); !done)
+    return unexpected(done.error());
+  written.push_back("sheet.png");
   return written;
 }
 

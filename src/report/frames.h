@@ -57,6 +57,8 @@ class FrameMaker final : public sim::Observer {
   void on_start(const sim::Scene& scene, const machine::JointVector& joints) override;
   void on_step(const sim::Step& step) override;
 
+  /// What the stock looked like; without it, stock is drawn as it was at the start.
+  void set_stock(std::unique_ptr<sim::StockHistory> stock);
   /// Draws everything into `folder` (frames/*.png, sheet.png) and names each finding's picture.
   /// Returns the paths written, relative to `folder`.
   Expected<std::vector<std::string>> write(const std::string& folder,

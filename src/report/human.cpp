@@ -51,6 +51,12 @@ std::string underline_remark(const sim::Finding& f) {
              " % of this move, t = " + fixed(f.t_first, 3) + " … " + seconds(f.t_end);
     case sim::Kind::near_miss:
       return "nearest at " + whole(f.u_first) + " % of this move, t = " + seconds(f.t_first);
+    case sim::Kind::rapid_cut:
+    case sim::Kind::spindle_stopped_cut:
+    case sim::Kind::spindle_direction_cut:
+    case sim::Kind::no_tool_cut:
+    case sim::Kind::plunge_not_center_cutting:
+      return "from " + whole(f.u_first) + " % of this move on, t = " + seconds(f.t_first);
     case sim::Kind::overtravel:
       return "outside from " + whole(f.u_first) + " % to " + whole(f.u_end) +
              " % of this move, t = " + fixed(f.t_first, 3) + " … " + seconds(f.t_end);
@@ -60,6 +66,7 @@ std::string underline_remark(const sim::Finding& f) {
     case sim::Kind::self_overlap:
     case sim::Kind::tool_change_collision:
     case sim::Kind::sync_limit:
+    case sim::Kind::air_cut:
     case sim::Kind::tool_missing:
     case sim::Kind::not_executed:
     case sim::Kind::not_checked:
@@ -158,6 +165,10 @@ std::string summary_text(const RunReport& report, const std::vector<Message>& al
            " bodies over all of the motion: " + percent(s.collision.clear) + " proven clear, " +
            percent(s.collision.hit) + " in contact, " + percent(s.collision.unresolved) +
            " unresolved\n";
+  if (s.stock)
+    out += "  stock    " + fixed((s.stock->initial_volume - s.stock->volume) / 1000, 2) + " of " +
+           fixed(s.stock->initial_volume / 1000, 2) + " cm³ cut away, on a lattice of " +
+           shortest(s.stock->pitch) + " mm\n";
   return out;
 }
 

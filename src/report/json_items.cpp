@@ -131,6 +131,15 @@ Json programs(const RunReport& report) {
   return out;
 }
 
+Json stock(const std::optional<sim::Summary::Stock>& stock) {
+  if (!stock) return nullptr;
+  return {{"pitch_mm", stock->pitch},
+          {"sweep_bound_mm", stock->sweep_bound},
+          {"initial_mm3", stock->initial_volume},
+          {"final_mm3", stock->volume},
+          {"removed_mm3", stock->initial_volume - stock->volume}};
+}
+
 Json collision(const sim::Summary::Collision& c) {
   return {{"bodies", c.bodies},
           {"pairs", c.pairs},
@@ -223,6 +232,7 @@ Json tail_items(const RunReport& report) {
             {"tool_change_s", s.tool_change_time}}},
           {"extents", extents},
           {"collision", collision(s.collision)},
+          {"stock", stock(s.stock)},
           {"outputs", texts(report.outputs)}};
 }
 

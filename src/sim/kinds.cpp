@@ -58,6 +58,33 @@ const std::vector<KindText>& finding_kinds() {
        "and\n"
        "catch up, so the thread is not what the program says.\n"
        "Remedy: a lower S, or a longer way before the thread begins."},
+      {"rapid_cut", "the cutter takes material during a rapid",
+       "A move at rapid (G0, the rapids of a cycle, G28, G30, a tool change) goes through stock "
+       "that\n"
+       "is still there at that moment: deeper than 0.01 mm along a ray, or more than 0.01 mm³.\n"
+       "Remedy: retract to a clear height first, raise the cycle's R plane, or correct the work\n"
+       "offset or the tool's length offset (G43 H)."},
+      {"spindle_stopped_cut", "the cutter takes material while the spindle stands",
+       "A feed move takes material with the spindle off, or with S0.\n"
+       "Remedy: M3 and S before the move; look for an M5 or a tool change before it."},
+      {"spindle_direction_cut", "the cutter takes material while it turns backwards",
+       "The spindle turns against the tool's cutting direction: M4 with a right-hand tool, M3 with "
+       "a\n"
+       "left-hand one (tools.toml: hand = \"left\").\n"
+       "Remedy: use the other direction, or correct the tool's description."},
+      {"no_tool_cut", "the bare spindle goes through stock",
+       "The program moves where stock is, with no tool in the spindle or with one that is not in "
+       "the\n"
+       "tool table.\n"
+       "Remedy: T and M6 before the move, or add the tool to the tool file."},
+      {"plunge_not_center_cutting", "a tool that can't cut at its centre is moved straight down",
+       "The tool is described with center_cutting = false and a feed move takes material within "
+       "3°\n"
+       "of its axis.\n"
+       "Remedy: enter by a ramp or a helix, drill first, or correct the tool's description."},
+      {"air_cut", "a long feed move takes nothing",
+       "A feed move of more than 20 mm removes no material: time is lost, or something stands\n"
+       "elsewhere than the program thinks (work offset, length offset, stock)."},
       {"tool_missing", "a tool is changed in that is not in the tool table",
        "The tool number of M6 or M61 has no entry in the tool file, so its shape and length are "
        "unknown.\n"

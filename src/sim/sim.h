@@ -67,6 +67,12 @@ enum class Kind : unsigned char {
   unreachable,
   singular,
   sync_limit,
+  rapid_cut,
+  spindle_stopped_cut,
+  spindle_direction_cut,
+  no_tool_cut,
+  plunge_not_center_cutting,
+  air_cut,
   tool_missing,
   not_executed,
   not_checked,
@@ -160,6 +166,14 @@ struct Summary {
     std::vector<std::string> exclusions;        ///< "a – b: reason"
   } collision;
 
+  struct Stock {
+    double pitch = 0;                       ///< of the lattice, mm
+    double sweep_bound = 0;                 ///< mm: straight pieces in place of the motion
+    double initial_volume = 0, volume = 0;  ///< mm³, before and after
+    std::size_t bytes = 0;                  ///< of the material in memory
+  };
+  std::optional<Stock> stock;  ///< when there was one and all its cuts are known
+
   std::vector<std::string> unchecked;  ///< what was not checked, in words
   bool interrupted = false;
   bool limit_reached = false;    ///< of simulated time
@@ -178,6 +192,14 @@ class Check {
   virtual void finish(Summary&) {}
 };
 
+/// The stock as it was during a run, for pictures.
+class StockHistory {
+ public:
+  virtual ~StockHistory() = default;
+  /// Its surface at program time t, in the frame of the stock's body. Times must not go back.
+  virtual std::shared_ptr<const TriangleMesh> at(double t) = 0;
+};
+
 /// Looks at everything and writes it down.
 class Observer {
  public:
@@ -190,6 +212,8 @@ class Observer {
 struct CheckOptions {
   bool limits = true;
   bool collision = true;
+  bool cut = true;           ///< the cutter against the stock
+  bool keep_cuts = false;    ///< for stock_history()
   double near = 2;             ///< mm; 0 = near misses are not looked for
   double touch = 0.001;        ///< ε_c, mm
   std::size_t detailed = 100;  ///< collisions whose depth is worked out; the others have none
@@ -201,6 +225,8 @@ std::unique_ptr<Check> make_collision_check(const CheckOptions& options);
 Finding finding_at(Kind kind, const Step& step, double t);
 /// Fraction of the block's path that is done at program time t.
 double fraction_at(const Step& step, double t);
+
+class CuttingCheck;
 
 /// Drives the machine through segments.
 class Simulator {
@@ -228,6 +254,11 @@ class Simulator {
 
   const Scene& scene() const { return scene_; }
   const JointVector& joints() const { return joints_; }
+  /// What is left of the stock, in the frame of its body; empty when there was none or it is not
+  /// known.
+  std::optional<TriangleMesh> part() const;
+  /// Null when there was no stock or the cuts were not kept. Error kind `output_failed`.
+  Expected<std::unique_ptr<StockHistory>> stock_history();
 
  private:
   void count(const plan::Segment& segment);
@@ -236,6 +267,7 @@ class Simulator {
   Scene scene_;
   JointVector joints_;
   std::vector<std::unique_ptr<Check>> checks_;
+  CuttingCheck* cutting_ = nullptr;  ///< one of them
   std::vector<Observer*> observers_;
   Findings findings_;
   Summary summary_;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "sim/checks/cutting.h"
 #include "sim/sim.h"
 
 namespace aircut::sim {
@@ -9,6 +10,23 @@ Simulator::Simulator(std::shared_ptr<const machine::Machine> machine, const tool
     : scene_(std::move(machine), tools), joints_(start) {
   if (options.limits) checks_.push_back(make_travel_check());
   if (options.collision) checks_.push_back(make_collision_check(options));
+  if (options.cut) {
+    auto cutting = std::make_unique<CuttingCheck>(options);
+    cutting_ = cutting.get();
+    checks_.push_back(std::move(cutting));
+  } else if (scene_.machine().stock()) {
+    not_checked("the tool against the stock (--check without `cut`)");
+  }
+}
+
+std::optional<TriangleMesh> Simulator::part() const {
+  if (!cutting_ || !cutting_->stock()) return std::nullopt;
+  return cutting_->stock()->mesh();
+}
+
+Expected<std::unique_ptr<StockHistory>> Simulator::stock_history() {
+  if (!cutting_ || !cutting_->stock() || !cutting_->tape()) return nullptr;
+  return cutting_->tape()->play(*scene_.machine().stock());
 }
 
 void Simulator::not_checked(const std::string& what) { summary_.unchecked.push_back(what); }

@@ -183,7 +183,7 @@ TEST_F(Gate, RefusesChecksThatDoNotExist) {
   EXPECT_EQ(aircut(good + "syntax,limits").code, 0);
   for (const auto& [word, text] :
        std::vector<std::pair<std::string, std::string>>{{"dynamics", "does not exist yet"},
-                                                        {"cut", "does not exist yet"},
+                                                        {"cut", "aircut run"},
                                                         {"collision", "aircut run"},
                                                         {"limit", "Did you mean 'limits'?"}}) {
     const Outcome r = aircut(good + word);
@@ -191,7 +191,7 @@ TEST_F(Gate, RefusesChecksThatDoNotExist) {
     EXPECT_TRUE(r.says(text)) << word << r.err;
   }
   EXPECT_TRUE(aircut("check" + file("good.ngc") + " --check limits").says("needs a machine"));
-  EXPECT_EQ(aircut("run" + file("good.ngc") + " -m mill3 --check cut").code, 2);
+  EXPECT_EQ(aircut("run" + file("good.ngc") + " -m mill3 --check dynamics").code, 2);
 }
 
 TEST_F(Gate, WaivesRaisesAndIsStrict) {

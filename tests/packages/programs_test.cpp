@@ -1,6 +1,7 @@
 // Every program in programs/ comes out as its header says:
 //
 //   ; machine: mill3, as delivered …      the package that it runs on
+//   ; setup: FILE                         with this set-up of programs/; may be missing
 //   ; …  Verdict pass.                    or: verdict fail: `kind`
 //
 // Programs that are meant to fail say so with the kind of the finding in backquotes.
@@ -22,6 +23,7 @@ namespace fs = std::filesystem;
 
 struct Header {
   std::string machine;  ///< empty: not said
+  std::string setup;    ///< empty: none
   bool passes = false;
   std::string kind;  ///< of the finding, when it doesn't pass
 };
@@ -39,6 +41,7 @@ Header header_of(const fs::path& program) {
   for (std::string line; std::getline(in, line) && line.starts_with(";");) comments += line + "\n";
   Header header;
   header.machine = after(comments, "machine: ", ",. \n");
+  header.setup = after(comments, "setup: ", ", \n");
   header.passes = comments.find("erdict pass") != std::string::npos &&
                   comments.find("erdict fail") == std::string::npos;
   header.kind = after(comments, "erdict fail: `", "`");
@@ -80,7 +83,8 @@ TEST_P(ShippedProgram, ComesOutAsItsHeaderSays) {
   ASSERT_FALSE(header.machine.empty()) << "the header has no `machine: NAME,`";
   ASSERT_NE(header.passes, !header.kind.empty())
       << "the header needs `Verdict pass` or `Verdict fail: ` with a kind in backquotes";
-  const Outcome outcome = run("programs/" + GetParam() + " -m " + header.machine);
+  const std::string setup = header.setup.empty() ? "" : " --setup programs/" + header.setup;
+  const Outcome outcome = run("programs/" + GetParam() + " -m " + header.machine + setup);
   EXPECT_EQ(outcome.code, header.passes ? 0 : 1) << outcome.out;
   if (header.passes) {
     EXPECT_NE(outcome.out.find("100 % proven clear"), std::string::npos) << outcome.out;

@@ -157,6 +157,14 @@ class Samples {
     out.push_back(finding(Kind::unreachable, 5, "no joints for this point: rod 1 is too short"));
     out.push_back(finding(Kind::singular, 5, "joint C would need an unlimited speed"));
     out.push_back(finding(Kind::sync_limit, 5, "the way is too short to catch up"));
+    out.push_back(finding(Kind::rapid_cut, 3, "the cutter goes through stock during a rapid"));
+    out.back().body_a = "T4/cutter";
+    out.back().body_b = "stock";
+    out.push_back(finding(Kind::spindle_stopped_cut, 4, "the spindle stands"));
+    out.push_back(finding(Kind::spindle_direction_cut, 4, "the spindle turns backwards"));
+    out.push_back(finding(Kind::no_tool_cut, 1, "there is no tool in the spindle"));
+    out.push_back(finding(Kind::plunge_not_center_cutting, 5, "it can't cut at its centre"));
+    out.push_back(finding(Kind::air_cut, 6, "this feed move takes no material"));
     out.push_back(finding(Kind::tool_missing, 2, "T4 is not in the tool table"));
     out.push_back(finding(Kind::not_checked, 2, "T4 has no geometry"));
     out.back().makes_unknown = true;

@@ -67,6 +67,10 @@ bool watched(const Scene& scene, const SceneBody& a, const SceneBody& b,
   const Role ra = a.body.role, rb = b.body.role;
   if (ra == Role::part || rb == Role::part) return false;
   if (is_tool(ra) && is_tool(rb)) return false;
+  // The tool against the stock of the moment: cutting.h.
+  if ((is_tool(ra) && rb == Role::stock) || (is_tool(rb) && ra == Role::stock)) return false;
+  if ((ra == Role::fixture && rb == Role::stock) || (rb == Role::fixture && ra == Role::stock))
+    return false;
   if (ra == Role::fixture && rb == Role::fixture) return false;
   const auto& links = scene.machine().links();
   const machine::Link& la = links[static_cast<std::size_t>(index(a.body.link))];

@@ -2,7 +2,10 @@
 //
 // All bodies on different links that collide, without
 //   - neighbours in the tree (machine and spindle bodies on links joined by one couple),
-//   - fixture against fixture (they rest on one another),
+//   - fixtures and stock among themselves (they rest on one another),
+//   - the tool against the stock, which changes (cutting.h); what is not the tool is watched
+//   against
+//     the raw piece, so it never sees less than there is,
 //   - pairs excluded by name in machine.toml, which the report lists with their reason.
 #pragma once
 

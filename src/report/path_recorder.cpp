@@ -1,0 +1,74 @@
+#include "report/path_recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aircut::report {
+
+namespace {
+
+constexpr double degrees = 180 / M_PI;
+constexpr std::size_t most_path_points = 60'000;
+
+render::LineKind line_kind(plan::MotionKind kind) {
+  if (kind == plan::MotionKind::rapid) return render::LineKind::rapid;
+  if (kind == plan::MotionKind::arc) return render::LineKind::arc;
+  return render::LineKind::feed;
+}
+
+}  // namespace
+
+void PathRecorder::add(const sim::Step& step) {
+  const plan::Segment& segment = step.segment;
+  if (std::holds_alternative<plan::Hold>(segment.path) || segment.duration() <= 0) return;
+  const double length = plan::length(segment.path);
+  const plan::MotionKind kind = std::holds_alternative<canon::Rapid>(segment.command.action)
+                                    ? plan::MotionKind::rapid
+                                    : segment.kind;
+  int pieces = 1;
+  if (const auto* arc = std::get_if<plan::Arc>(&segment.path)) {
+    constexpr double widest_chord = 6 / degrees;  // rad
+    pieces = std::clamp(static_cast<int>(std::ceil(std::abs(arc->angle) / widest_chord)), 2, 720);
+  } else if (std::holds_alternative<plan::Blend>(segment.path)) {
+    pieces = 6;
+  }
+  for (int i = points_.empty() ? 0 : 1; i <= pieces; ++i) {
+    const double t = segment.t_start + segment.duration() * i / pieces;
+    const AxisValues tip = plan::evaluate(segment.path, std::min(length, length * i / pieces)).p;
+    push({Vec3(tip[Axis::x], tip[Axis::y], tip[Axis::z]), t, kind});
+  }
+}
+
+std::vector<render::DrawLine> PathRecorder::lines(const Pose& X_WM, double now) const {
+  std::vector<render::DrawLine> out;
+  for (std::size_t i = 1; i < points_.size(); ++i) {
+    const render::LineKind kind =
+        points_[i].t <= now ? render::LineKind::done : line_kind(points_[i].kind);
+    if (out.empty() || out.back().kind != kind) out.push_back({kind, {X_WM * points_[i - 1].p}});
+    out.back().points.push_back(X_WM * points_[i].p);
+  }
+  return out;
+}
+
+Box3 PathRecorder::box(const Pose& X_WM) const {
+  Box3 feed, all;
+  for (const Point& point : points_) {
+    all.extend(X_WM * point.p);
+    if (point.kind != plan::MotionKind::rapid) feed.extend(X_WM * point.p);
+  }
+  return feed.isEmpty() ? all : feed;
+}
+
+void PathRecorder::push(const Point& point) {
+  if (!points_.empty() && points_.back().kind == point.kind &&
+      (points_.back().p - point.p).norm() < spacing_)
+    return;
+  points_.push_back(point);
+  if (points_.size() < most_path_points) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points_.size(); i += 2) points_[kept++] = points_[i];
+  points_.resize(kept);
+  spacing_ = std::max(0.02, spacing_ * 2);
+}
+
+}  // namespace aircut::report

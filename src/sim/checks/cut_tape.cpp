@@ -1,0 +1,134 @@
+#include "sim/checks/cut_tape.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+namespace aircut::sim {
+
+namespace {
+
+struct Record {
+  double t = 0;
+  double start[3], end[3], axis[3];
+  std::uint64_t cutter = 0;  // index
+};
+
+Diagnostic disk_error(const char* what) {
+  return make_error("output_failed",
+                    std::string(what) + " for the pictures of the stock: " + std::strerror(errno));
+}
+
+using Cutters = std::vector<std::unique_ptr<stock::CutterProfile>>;
+
+class Player final : public StockHistory {
+ public:
+  Player(std::shared_ptr<std::FILE> file, std::shared_ptr<const Cutters> cutters,
+         stock::Stock stock)
+      : file_(std::move(file)), cutters_(std::move(cutters)), stock_(std::move(stock)) {
+    more_ = read();
+  }
+
+  std::shared_ptr<const TriangleMesh> at(double t) override {
+    std::vector<stock::Piece> pieces;
+    bool changed = false;
+    const auto cut = [&] {
+      if (pieces.empty()) return;
+      // What could be cut in the run can be cut on the coarser lattice.
+      changed = stock_.cut(pieces).has_value() || changed;
+      pieces.clear();
+    };
+    while (more_ && next_.t <= t) {
+      pieces.push_back(
+          {(*cutters_)[next_.cutter].get(), vec(next_.start), vec(next_.end), vec(next_.axis), 0});
+      if (pieces.size() == 4096) cut();
+      more_ = read();
+    }
+    cut();
+    if (!mesh_ || changed) mesh_ = std::make_shared<TriangleMesh>(stock_.mesh());
+    return mesh_;
+  }
+
+ private:
+  static Vec3 vec(const double* v) { return {v[0], v[1], v[2]}; }
+  bool read() { return std::fread(&next_, sizeof next_, 1, file_.get()) == 1; }
+
+  std::shared_ptr<std::FILE> file_;
+  std::shared_ptr<const Cutters> cutters_;
+  stock::Stock stock_;
+  Record next_{};
+  bool more_ = false;
+  std::shared_ptr<const TriangleMesh> mesh_;
+};
+
+double longest_side(const machine::RawStock& raw) { return bounds(*raw.mesh).sizes().maxCoeff(); }
+
+}  // namespace
+
+double default_pitch(const machine::RawStock& raw) {
+  const double wanted = std::clamp(longest_side(raw) / 500, 0.001, 1.0);
+  const double decade = std::pow(10, std::floor(std::log10(wanted) + 1e-9));
+  const double lead = wanted / decade * (1 + 1e-9);
+  return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
+}
+
+Expected<stock::Stock> make_stock(const machine::RawStock& raw, double pitch) {
+  stock::Solid solid;
+  switch (raw.shape) {
+    case machine::StockShape::box:
+      solid = stock::Box{Vec3(-raw.size.x() / 2, -raw.size.y() / 2, 0),
+                         Vec3(raw.size.x() / 2, raw.size.y() / 2, raw.size.z())};
+      break;
+    case machine::StockShape::cylinder:
+      solid = stock::Cylinder{
+          .radius = raw.diameter / 2, .inner_radius = raw.bore / 2, .length = raw.height};
+      break;
+    case machine::StockShape::mesh:
+      solid = stock::MeshSolid{raw.mesh};
+      break;
+  }
+  return stock::Stock::make(solid, pitch);
+}
+
+Expected<CutTape> CutTape::make() {
+  CutTape tape;
+  tape.file_ = std::shared_ptr<std::FILE>(std::tmpfile(), [](std::FILE* file) {
+    if (file) std::fclose(file);
+  });
+  if (!tape.file_) return unexpected(disk_error("can't make a temporary file"));
+  tape.cutters_ = std::make_shared<Cutters>();
+  return tape;
+}
+
+const stock::CutterProfile* CutTape::keep(const stock::CutterProfile& cutter) {
+  cutters_->push_back(std::make_unique<stock::CutterProfile>(cutter));
+  return cutters_->back().get();
+}
+
+Expected<void> CutTape::add(const stock::Piece& piece, double t) {
+  Record record;
+  record.t = t;
+  for (int i = 0; i < 3; ++i) {
+    record.start[i] = piece.start[i];
+    record.end[i] = piece.end[i];
+    record.axis[i] = piece.axis[i];
+  }
+  const auto at = std::find_if(cutters_->rbegin(), cutters_->rend(),
+                               [&](const auto& cutter) { return cutter.get() == piece.cutter; });
+  record.cutter = static_cast<std::uint64_t>(cutters_->rend() - at - 1);
+  if (std::fwrite(&record, sizeof record, 1, file_.get()) == 1) return {};
+  return unexpected(disk_error("can't write a temporary file"));
+}
+
+Expected<std::unique_ptr<StockHistory>> CutTape::play(const machine::RawStock& raw) {
+  if (std::fflush(file_.get()) != 0 || std::fseek(file_.get(), 0, SEEK_SET) != 0)
+    return unexpected(disk_error("can't read a temporary file"));
+  constexpr double steps = 300;  // of the longest side: finer than a picture's pixels
+  const double pitch = std::max(raw.pitch.value_or(default_pitch(raw)), longest_side(raw) / steps);
+  auto stock = make_stock(raw, pitch);
+  if (!stock) return unexpected(stock.error());
+  return std::make_unique<Player>(file_, cutters_, std::move(*stock));
+}
+
+}  // namespace aircut::sim

@@ -1,0 +1,361 @@
+#include "sim/checks/cutting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/checks/pairs.h"
+
+namespace aircut::sim {
+
+namespace {
+
+constexpr double deepest_touch = 0.01;  // ε_cut, mm
+constexpr double largest_touch = 0.01;  // V_cut, mm³
+constexpr double longest_air = 20;      // mm of a feed move that takes nothing
+constexpr double plunge_angle = 3 * M_PI / 180;
+constexpr std::size_t batch_size = 256;
+
+double volume_of(const machine::RawStock& raw) {
+  switch (raw.shape) {
+    case machine::StockShape::box:
+      return raw.size.prod();
+    case machine::StockShape::cylinder:
+      return M_PI / 4 * (raw.diameter * raw.diameter - raw.bore * raw.bore) * raw.height;
+    case machine::StockShape::mesh:
+      return volume(*raw.mesh);
+  }
+  return 0;
+}
+
+// Program time at which the path is done up to `s`.
+double time_at(const Step& step, double s) {
+  const plan::Segment& segment = step.segment;
+  double low = 0, high = segment.duration();
+  for (int i = 0; i < 40 && high - low > 1e-9; ++i) {
+    const double middle = 0.5 * (low + high);
+    (segment.profile.at(middle).s < s ? low : high) = middle;
+  }
+  return segment.t_start + high;
+}
+
+std::string what_happens(Kind kind, const std::string& cutter) {
+  switch (kind) {
+    case Kind::rapid_cut:
+      return cutter + " goes through stock during a rapid";
+    case Kind::spindle_stopped_cut:
+      return cutter + " is fed into stock while the spindle stands";
+    case Kind::spindle_direction_cut:
+      return cutter + " is fed into stock while the spindle turns backwards";
+    case Kind::plunge_not_center_cutting:
+      return cutter + " is fed straight down into stock, but it can't cut at its centre";
+    default:
+      return "the program moves into stock with no tool in the spindle";
+  }
+}
+
+std::string remedy_of(Kind kind, bool left_hand) {
+  switch (kind) {
+    case Kind::rapid_cut:
+      return "retract to a clear height first; if the height looks right, check work offset and "
+             "length offset";
+    case Kind::spindle_stopped_cut:
+      return "start the spindle (S, M3) before the tool reaches the stock";
+    case Kind::spindle_direction_cut:
+      return left_hand ? "the tool is left-hand: use M4" : "the tool is right-hand: use M3";
+    case Kind::plunge_not_center_cutting:
+      return "enter by a ramp or a helix, or drill first";
+    default:
+      return "load a tool (T, M6) first";
+  }
+}
+
+}  // namespace
+
+const stock::Stock* CuttingCheck::stock() const {
+  return stock_ && given_up_.empty() ? &*stock_ : nullptr;
+}
+
+void CuttingCheck::start(const Scene& scene, const JointVector&, Findings&) {
+  raw_ = scene.machine().stock();
+  if (!raw_) return;
+  const double pitch = raw_->pitch.value_or(default_pitch(*raw_));
+  auto made = make_stock(*raw_, pitch);
+  if (!made) return give_up(made.error().message);
+  stock_ = std::move(*made);
+  initial_volume_ = volume_of(*raw_);
+  tolerance_ = std::min(pitch / 10, 0.01);
+  if (options_.keep_cuts) {
+    auto tape = CutTape::make();
+    if (!tape) return give_up(tape.error().message);
+    tape_ = std::move(*tape);
+  }
+  read_tool(scene);
+}
+
+void CuttingCheck::read_tool(const Scene& scene) {
+  cutters_.clear();
+  others_.clear();
+  taped_.clear();
+  reach_ = {};
+  const tool::Tool* tool = scene.tool();
+  no_tool_ = tool == nullptr;
+  tool_known_ = no_tool_ || !tool->pieces.empty();
+  if (no_tool_) {
+    // Only whether the programmed point enters the stock: a pin, a millimetre wide.
+    cutters_.push_back({"spindle", machine::Role::cutter, *stock::CutterProfile::flat(1, 1)});
+    reach_ = {0.5, 1};
+    return;
+  }
+  center_cutting_ = tool->center_cutting;
+  left_hand_ = tool->left_hand;
+  for (const tool::Piece& piece : tool->pieces) {
+    auto profile = stock::CutterProfile::from_outline(piece.profile);
+    if (!profile) {
+      tool_known_ = false;
+      continue;
+    }
+    const bool cuts = piece.role == tool::PieceRole::cutter;
+    const machine::Role role = cuts                                   ? machine::Role::cutter
+                               : piece.role == tool::PieceRole::shank ? machine::Role::shank
+                                                                      : machine::Role::holder;
+    reach_.radius = std::max(reach_.radius, profile->radius());
+    reach_.height = std::max(reach_.height, profile->high());
+    (cuts ? cutters_ : others_)
+        .push_back({"T" + std::to_string(tool->number) + "/" + piece.name, role, *profile});
+  }
+}
+
+void CuttingCheck::scene_changed(const Step& step, const JointVector&, Findings& out) {
+  if (!stock()) return;
+  flush();
+  tell_given_up(step, out);
+  read_tool(step.scene);
+}
+
+void CuttingCheck::give_up(const std::string& why) {
+  if (given_up_.empty()) given_up_ = why;
+  batch_.clear();
+  batch_times_.clear();
+}
+
+void CuttingCheck::tell_given_up(const Step& step, Findings& out) {
+  if (given_up_.empty() || told_) return;
+  told_ = true;
+  Finding f = finding_at(Kind::not_checked, step, step.segment.t_start);
+  f.message = "from here on it is not known what is left of the stock: " + given_up_;
+  f.makes_unknown = true;
+  out.add(f);
+}
+
+// ---- the stock ---------------------------------------------------------------------------------
+
+stock::Piece CuttingCheck::piece(const Solid& solid, const StraightMove& move, double part) const {
+  return {&solid.profile, move.from, move.from + part * (move.to - move.from), move.axis, 0};
+}
+
+bool CuttingCheck::takes(const stock::Touch& touch) const {
+  return touch.depth > deepest_touch || touch.volume > largest_touch;
+}
+
+stock::Touch CuttingCheck::touch_of(const stock::Piece& piece) {
+  auto touch = stock_->touch(piece);
+  if (touch) return *touch;
+  give_up(touch.error().message);
+  return {};
+}
+
+void CuttingCheck::hold(const Step& step, const Solid& cutter, const StraightMove& move) {
+  batch_.push_back(piece(cutter, move));
+  batch_times_.push_back(tape_ ? time_at(step, move.s1) : 0);
+  if (batch_.size() >= batch_size) flush();
+}
+
+void CuttingCheck::flush() {
+  if (batch_.empty()) return;
+  if (auto cut = stock_->cut(batch_); !cut) return give_up(cut.error().message);
+  if (tape_) {
+    for (std::size_t i = 0; i < batch_.size(); ++i) {
+      stock::Piece piece = batch_[i];
+      const stock::CutterProfile*& kept = taped_[piece.cutter];
+      if (!kept) kept = tape_->keep(*piece.cutter);
+      piece.cutter = kept;
+      if (auto added = tape_->add(piece, batch_times_[i]); !added)
+        return give_up(added.error().message);
+    }
+  }
+  batch_.clear();
+  batch_times_.clear();
+}
+
+// ---- the rules ---------------------------------------------------------------------------------
+
+std::optional<Kind> CuttingCheck::forbidden(const Step& step) const {
+  const plan::Segment& segment = step.segment;
+  if (no_tool_) return Kind::no_tool_cut;
+  if (std::holds_alternative<canon::Rapid>(segment.command.action) ||
+      segment.kind == plan::MotionKind::rapid || segment.kind == plan::MotionKind::tool_change)
+    return Kind::rapid_cut;
+  const double rpm = segment.spindle_rpm;
+  if (rpm == 0) return Kind::spindle_stopped_cut;
+  // A tap comes back with the spindle reversed.
+  const bool follows = segment.sync && segment.sync->spindle_follows;
+  if (!follows && (rpm < 0) != left_hand_) return Kind::spindle_direction_cut;
+  return std::nullopt;
+}
+
+void CuttingCheck::step(const Step& step, Findings& out) {
+  if (raw_ && !given_up_.empty()) return tell_given_up(step, out);
+  if (!stock() || std::holds_alternative<plan::Hold>(step.segment.path)) return;
+  // What a probe touches has no model: the verdict is unknown already.
+  if (std::holds_alternative<canon::Probe>(step.segment.command.action)) return;
+  moves_.clear();
+  if (!straight_moves(step, *raw_, reach_, tolerance_, moves_)) {
+    give_up("the way of the tool over the stock can't be told");
+    return tell_given_up(step, out);
+  }
+  const std::optional<Kind> kind = forbidden(step);
+  if (!tool_known_) {
+    if (kind == Kind::rapid_cut || kind == Kind::spindle_stopped_cut) return;
+    give_up("tool T" + std::to_string(step.scene.loaded_tool()) +
+            " has no geometry that can be cut with");
+    return tell_given_up(step, out);
+  }
+  if (!kind) look_for_air(step, moves_, out);
+  for (const StraightMove& move : moves_) {
+    const double rise = (move.to - move.from).dot(move.axis);
+    if (rise > 0)
+      for (const Solid& solid : others_) ask(step, move, solid, out);
+    for (const Solid& cutter : cutters_) {
+      const double way = (move.to - move.from).norm();
+      if (kind)
+        cutter_may_not(step, move, cutter, *kind, out);
+      else if (!center_cutting_ && -rise > way * std::cos(plunge_angle))
+        cutter_may_not(step, move, cutter, Kind::plunge_not_center_cutting, out);
+      else
+        hold(step, cutter, move);
+      if (!given_up_.empty()) return tell_given_up(step, out);
+    }
+    if (rise <= 0)
+      for (const Solid& solid : others_) ask(step, move, solid, out);
+    if (!given_up_.empty()) return tell_given_up(step, out);
+  }
+}
+
+void CuttingCheck::look_for_air(const Step& step, const std::vector<StraightMove>& moves,
+                                Findings& out) {
+  const double length = plan::length(step.segment.path);
+  if (length <= longest_air) return;
+  flush();
+  for (const StraightMove& move : moves)
+    for (const Solid& cutter : cutters_) {
+      if (!stock()) return;
+      if (touch_of(piece(cutter, move)).depth > 0) return;
+    }
+  Finding f = finding_at(Kind::air_cut, step, step.segment.t_start);
+  f.t_end = step.segment.t_end();
+  f.u_first = fraction_at(step, f.t_first);
+  f.u_end = fraction_at(step, f.t_end);
+  f.message = "this feed move of " + fixed(length, 1) + " mm takes no material";
+  f.value = length;
+  f.limit = longest_air;
+  f.unit = "mm";
+  out.add(f);
+}
+
+void CuttingCheck::cutter_may_not(const Step& step, const StraightMove& move, const Solid& cutter,
+                                  Kind kind, Findings& out) {
+  const stock::Piece whole = piece(cutter, move);
+  if (!takes(touch_of(whole))) return;
+  flush();
+  if (!stock()) return;
+  const stock::Touch touch = touch_of(whole);
+  if (!stock() || !takes(touch)) return;
+  Finding f = row(kind, step, move, cutter, touch.point);
+  f.message = kind == Kind::no_tool_cut
+                  ? what_happens(kind, "")
+                  : what_happens(kind, "cutter `" + cutter.name + "`") + ": " +
+                        fixed(touch.volume, touch.volume < 10 ? 2 : 0) + " mm³ in its way";
+  f.remedy = remedy_of(kind, left_hand_);
+  f.depth = touch.depth;
+  f.depth_bound = stock_->pitch() / 2;
+  f.value = touch.volume;
+  f.unit = "mm3";
+  out.add(f);
+  if (kind != Kind::no_tool_cut) {
+    hold(step, cutter, move);
+    flush();
+  }
+}
+
+void CuttingCheck::ask(const Step& step, const StraightMove& move, const Solid& solid,
+                       Findings& out) {
+  if (!stock()) return;
+  const stock::Piece whole = piece(solid, move);
+  auto answer = stock_->would_cut(whole, options_.touch);
+  if (answer && answer->contact == stock::Contact::clear) return;
+  flush();
+  if (!stock()) return;
+  answer = stock_->would_cut(whole, options_.touch);
+  if (!answer) return give_up(answer.error().message);
+  if (answer->contact == stock::Contact::clear) return;
+  const bool hit = answer->contact == stock::Contact::hit;
+  Finding f = row(hit ? Kind::collision : Kind::near_miss, step, move, solid, answer->touch.point);
+  const std::string who =
+      (solid.role == machine::Role::shank ? "tool shank `" : "tool holder `") + solid.name + "`";
+  if (hit) {
+    f.message = who + " runs into stock that the cutter leaves standing";
+    f.depth = std::max(answer->least, answer->touch.depth);
+    f.depth_bound = answer->most - answer->least;
+    f.remedy = "use a longer stick-out or flute length, or clear the material beside it first";
+  } else {
+    f.message = who + " may touch stock: neither contact nor clearance could be proven with a " +
+                shortest(stock_->pitch()) + " mm lattice";
+    f.remedy = "a smaller [stock] pitch in the set-up decides it";
+    f.unresolved = f.makes_unknown = true;
+  }
+  out.add(f);
+}
+
+Finding CuttingCheck::row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
+                          const Vec3& point) {
+  // The first fraction of the move that takes something, by halving: what a longer part takes, it
+  // takes too.
+  double low = 0, part = 1;
+  for (int i = 0; i < 12; ++i) {
+    const double middle = 0.5 * (low + part);
+    (takes(touch_of(piece(solid, move, middle))) ? part : low) = middle;
+  }
+  const double s = move.s0 + part * (move.s1 - move.s0);
+  Finding f = finding_at(kind, step, time_at(step, s));
+  f.t_end = std::max(f.t_first, time_at(step, move.s1));
+  f.u_first = fraction_at(step, f.t_first);
+  f.u_end = fraction_at(step, f.t_end);
+  f.body_a = solid.name;
+  f.body_b = "stock";
+  f.pair = std::string(machine::to_string(solid.role)) + "-stock";
+  if (f.joints_first.size() > 0) {
+    machine::LinkPoses poses;
+    machine::forward(step.scene.machine(), f.joints_first, poses);
+    f.points = {poses.X_WL[static_cast<std::size_t>(machine::index(raw_->link))] * raw_->X_LS *
+                point};
+  }
+  return f;
+}
+
+void CuttingCheck::finish(Summary& summary) {
+  if (!raw_) return;
+  if (stock()) flush();
+  if (!stock()) {
+    summary.unchecked.push_back("what the cutter takes from the stock: " + given_up_);
+    return;
+  }
+  Summary::Stock s;
+  s.pitch = stock_->pitch();
+  s.sweep_bound = tolerance_;
+  s.initial_volume = initial_volume_;
+  s.volume = stock_->volume();
+  s.bytes = stock_->bytes();
+  summary.stock = s;
+}
+
+}  // namespace aircut::sim

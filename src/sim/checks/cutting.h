@@ -1,0 +1,83 @@
+// Private: the cutter against the stock of that moment (verification.md §4.3), and the stock
+// itself.
+//
+//   step ─► straight moves of the tool, seen from the stock (tool_way.h)
+//        ─► may the cutter cut here? Yes: the move waits in a batch. No: the stock is asked first,
+//           and what would be taken is a finding.
+//        ─► shank and holder: the stock is asked. Clear of the stock as it was when the batch began
+//           is clear, since material only goes away; otherwise the batch is cut and it is asked
+//           again.
+//
+// A shank and its own move. While the tool goes down along its axis, or level, the cutter never
+// comes to a point later in the move that the shank passes: it is above the cutter by then. So the
+// shank is asked after the move is cut. While the tool goes up, such a point can't have been cut
+// earlier in the move. So it is asked before. Both are exact.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "sim/checks/cut_tape.h"
+#include "sim/checks/tool_way.h"
+#include "sim/sim.h"
+#include "stock/stock.h"
+
+namespace aircut::sim {
+
+class CuttingCheck final : public Check {
+ public:
+  explicit CuttingCheck(const CheckOptions& options) : options_(options) {}
+
+  void start(const Scene& scene, const JointVector& joints, Findings& out) override;
+  void step(const Step& step, Findings& out) override;
+  void scene_changed(const Step& step, const JointVector& joints, Findings& out) override;
+  void finish(Summary& summary) override;
+
+  /// Null when there is none, or not all that was cut is known.
+  const stock::Stock* stock() const;
+  /// Null when the cuts were not kept.
+  CutTape* tape() { return tape_ ? &*tape_ : nullptr; }
+
+ private:
+  /// A solid of the tool.
+  struct Solid {
+    std::string name;
+    machine::Role role;
+    stock::CutterProfile profile;
+  };
+  void read_tool(const Scene& scene);
+  std::optional<Kind> forbidden(const Step& step) const;
+  /// `part`: only this fraction of the move, from its start.
+  stock::Piece piece(const Solid& solid, const StraightMove& move, double part = 1) const;
+  bool takes(const stock::Touch& touch) const;
+  stock::Touch touch_of(const stock::Piece& piece);
+  void hold(const Step& step, const Solid& cutter, const StraightMove& move);
+  void flush();
+  void cutter_may_not(const Step& step, const StraightMove& move, const Solid& cutter, Kind kind,
+                      Findings& out);
+  void ask(const Step& step, const StraightMove& move, const Solid& solid, Findings& out);
+  void look_for_air(const Step& step, const std::vector<StraightMove>& moves, Findings& out);
+  Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
+              const Vec3& point);
+  void give_up(const std::string& why);
+  void tell_given_up(const Step& step, Findings& out);
+
+  CheckOptions options_;
+  std::optional<machine::RawStock> raw_;
+  std::optional<stock::Stock> stock_;
+  std::optional<CutTape> tape_;
+  double initial_volume_ = 0, tolerance_ = 0;  ///< mm³, mm
+  std::vector<Solid> cutters_, others_;
+  std::map<const stock::CutterProfile*, const stock::CutterProfile*> taped_;  ///< of cutters_
+  bool tool_known_ = true;  ///< its solids are known, or there is none
+  bool center_cutting_ = true, left_hand_ = false, no_tool_ = true;
+  Reach reach_;
+  std::vector<StraightMove> moves_;  ///< of the step at hand
+  std::vector<stock::Piece> batch_;  ///< waiting to be cut
+  std::vector<double> batch_times_;  ///< program time at the end of each
+  std::string given_up_;             ///< why nothing more is known of the stock; empty: it is known
+  bool told_ = false;
+};
+
+}  // namespace aircut::sim
