@@ -88,18 +88,23 @@ std::int64_t RayFamily::quanta() const {
   return sum;
 }
 
-int RayFamily::top() const {
-  int top = 0;
-  for (std::size_t i = 0; i < rays; ++i) {
-    if (!block) {
-      if (full[i / cells] != 0) return brick_quanta;
-    } else if (block->lo[i] < block->hi[i]) {
-      top = std::max<int>(top, block->hi[i]);
+std::uint16_t RayFamily::top(int row) const {
+  std::uint16_t top = 0;
+  if (!block) {
+    top = full[static_cast<std::size_t>(row)] != 0 ? brick_quanta : 0;
+  } else {
+    const auto first = static_cast<std::size_t>(row * cells);
+    for (std::size_t i = first; i < first + cells; ++i) {
+      const std::uint16_t here = block->lo[i] < block->hi[i] ? block->hi[i] : std::uint16_t{0};
+      top = top > here ? top : here;
     }
   }
-  for (const ExtraInterval& e : extra) top = std::max<int>(top, e.interval.hi);
+  for (const ExtraInterval& e : extra)
+    if (e.ray / cells == row) top = std::max(top, e.interval.hi);
   return top;
 }
+
+int Brick::z_top() const { return *std::max_element(z_tops.begin(), z_tops.end()); }
 
 bool Brick::empty() const {
   return std::all_of(family.begin(), family.end(), [](const RayFamily& f) { return f.empty(); });
@@ -112,7 +117,7 @@ std::unique_ptr<Brick> Brick::clone() const {
     out->family[f].full = family[f].full;
     out->family[f].extra = family[f].extra;
   }
-  out->z_top = z_top;
+  out->z_tops = z_tops;
   out->rows = rows;
   return out;
 }

@@ -51,17 +51,28 @@ struct RayFamily {
   /// All intervals of a ray, sorted; normals of ends at the brick's border are left out.
   void intervals(int ray, std::vector<Interval>& out) const;
   std::int64_t quanta() const;
-  /// Highest end of any ray, quanta.
-  int top() const;
+  /// Highest end of any ray of a row, quanta.
+  std::uint16_t top(int row) const;
+  /// The intervals of a row's rays where they are all there is to it, else null.
+  const std::uint16_t* lows(int row) const {
+    return block && extra.empty() ? &block->lo[static_cast<std::size_t>(row * cells)] : nullptr;
+  }
+  const std::uint16_t* highs(int row) const {
+    return block && extra.empty() ? &block->hi[static_cast<std::size_t>(row * cells)] : nullptr;
+  }
 };
 
 struct Brick {
   std::array<RayFamily, 3> family;
-  int z_top = brick_quanta;  ///< no Z ray reaches higher
+  /// No Z ray of a row reaches higher.
+  std::array<std::uint16_t, cells> z_tops;
   /// Rows of X and Y rays at and above these are empty.
   std::array<int, 2> rows = {cells, cells};
 
+  Brick() { z_tops.fill(brick_quanta); }
   bool empty() const;
+  /// Highest end of any Z ray.
+  int z_top() const;
   std::unique_ptr<Brick> clone() const;
   std::size_t bytes() const;
 };

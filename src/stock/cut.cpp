@@ -95,7 +95,7 @@ class ColumnCutter {
     }
     sums_.bytes += static_cast<std::ptrdiff_t>(s.brick()->bytes() - bytes_before);
     const Brick& brick = *s.brick();
-    if (brick.z_top == 0 && brick.rows[0] == 0 && brick.rows[1] == 0) drop(k);
+    if (brick.rows[0] == 0 && brick.rows[1] == 0 && brick.z_top() == 0) drop(k);
   }
 
   void drop(int k) {
@@ -117,19 +117,22 @@ class ColumnCutter {
     each_brick(sweep, [&](int k, double bottom) {
       if (sweep.takes_all(bottom, bottom + size)) return take_whole(k, work.slot);
       Brick& brick = take_out(k);
-      if (sweep.floor > bottom + (brick.z_top + 1) * lattice().quantum()) return;
+      const double quanta = (sweep.floor - bottom) / lattice().quantum() - 1;
+      if (quanta > brick.z_top()) return;
       const std::size_t bytes = brick.bytes();
       RayFamily& family = brick.family[2];
       const LocalSweep local = sweep.in_brick(lattice(), k);
       bool changed = false;
-      for (int row = 0; row < cells; ++row) {
-        if (family.row_empty(row)) continue;
-        kernels_.upright(local, row, chords_);
-        const RowLoss loss = take_row(family, local, Family::z, row, chords_, kernels_);
+      for (int row = sweep.first_row; row < sweep.end_row; ++row) {
+        std::uint16_t& top = brick.z_tops[static_cast<std::size_t>(row)];
+        if (top == 0 || quanta > top) continue;
+        if (!kernels_.upright(local, row, family.lows(row), family.highs(row), chords_)) continue;
+        const RowLoss loss = take_row(family, row, chords_, kernels_);
         sums_.quanta[work.slot] += loss.quanta;
-        changed = changed || loss.changed;
+        if (!loss.changed) continue;
+        changed = true;
+        top = family.top(row);
       }
-      if (changed) brick.z_top = family.top();
       put_back(k, changed, bytes);
     });
   }
@@ -158,11 +161,12 @@ class ColumnCutter {
       if (family.row_empty(row)) continue;
       // All rows that see only the straight wall have the same chords.
       const bool wall = sees_only_wall(local, row);
-      if (wall && !walls_known) kernels_.level(local, f, row, walls_);
+      if (wall && !walls_known) kernels_.level(local, f, row, nullptr, nullptr, walls_);
       walls_known = walls_known || wall;
-      if (!wall) kernels_.level(local, f, row, chords_);
+      if (!wall && !kernels_.level(local, f, row, family.lows(row), family.highs(row), chords_))
+        continue;
       const Chords& chords = wall ? walls_ : chords_;
-      changed = take_row(family, local, f, row, chords, kernels_).changed || changed;
+      changed = take_row(family, row, chords, kernels_).changed || changed;
     }
     if (changed)
       while (rows > 0 && family.row_empty(rows - 1)) --rows;
@@ -285,9 +289,9 @@ class Toucher {
       for (int row = 0; row < cells; ++row) {
         if (family.row_empty(row)) continue;
         if (f == Family::z)
-          kernels().upright(local, row, chords);
+          kernels().upright(local, row, nullptr, nullptr, chords);
         else
-          kernels().level(local, f, row, chords);
+          kernels().level(local, f, row, nullptr, nullptr, chords);
         note(f, touch_row(family, row, chords), i, j, k);
       }
     }

@@ -26,6 +26,7 @@ struct ShapeF {
   std::vector<FloorF> below, above;
   std::vector<BandF> bands;
   float radius, low, high, wall_low, wall_high;
+  bool corners;     ///< has arcs with e > 0
   float roof_edge;  ///< height of the upper side at its edge: the lowest of it
 };
 
@@ -42,37 +43,41 @@ struct LocalSweep {
 };
 
 /// The chord of each ray, in quanta from the brick's border, clamped to the brick; a = b = 0 for
-/// none. `ta`, `tb`: the path parameter s at which the cutter touches the ends.
+/// none. With the directions (brick.h) that the material's surface gets where it is left before a
+/// and after b.
 struct Chords {
   alignas(64) std::int32_t a[cells];
   alignas(64) std::int32_t b[cells];
-  alignas(64) float ta[cells];
-  alignas(64) float tb[cells];
+  alignas(64) std::int32_t normal_a[cells];
+  alignas(64) std::int32_t normal_b[cells];
 };
 
 /// Lanes whose ends moved, as bits.
 struct RowChange {
-  std::uint32_t low = 0, high = 0;  ///< the lower (upper) end moved
-  std::uint32_t split = 0;  ///< the chord lies inside of the material: [b, old hi) is left over
+  std::uint32_t low = 0, high = 0;            ///< the lower (upper) end moved
+  std::uint32_t split = 0;                    ///< the chord lies inside: [b, old hi) is left over
   std::uint32_t same_low = 0, same_high = 0;  ///< the chord ends where the material does
   std::int32_t lost = 0;                      ///< quanta
-  std::int32_t deepest = 0;                   ///< the most on one ray
-  int deepest_lane = 0;
 
   bool any() const { return (low | high | split | same_low | same_high) != 0; }
 };
 
 struct Kernels {
-  /// Z rays of row j (lanes along X).
-  void (*upright)(const LocalSweep&, int row, Chords&);
+  /// Chords of the Z rays of row j (lanes along X). With the row's intervals [lo, hi), returns
+  /// false without finishing when none of them is touched; null: always finishes.
+  bool (*upright)(const LocalSweep&, int row, const std::uint16_t* lo, const std::uint16_t* hi,
+                  Chords&);
   /// X (Y) rays of the row at height k, lanes along Y (X).
-  void (*level)(const LocalSweep&, Family, int row, Chords&);
-  /// Takes the chords from the row's intervals [lo, hi).
+  bool (*level)(const LocalSweep&, Family, int row, const std::uint16_t* lo,
+                const std::uint16_t* hi, Chords&);
+  /// Takes the chords from the row's intervals.
   void (*take)(std::uint16_t* lo, std::uint16_t* hi, const Chords&, RowChange&);
 };
 
 /// The fastest kernels of this processor, or the portable ones.
 const Kernels& kernels();
 const Kernels& portable_kernels();
+/// Null where there is no AVX2.
+const Kernels* avx2_kernels();
 
 }  // namespace aircut::stock

@@ -2,6 +2,9 @@
 
 namespace aircut::stock {
 
-const Kernels& kernels() { return portable_kernels(); }
+const Kernels& kernels() {
+  static const Kernels* const fast = avx2_kernels();
+  return fast ? *fast : portable_kernels();
+}
 
 }  // namespace aircut::stock

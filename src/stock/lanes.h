@@ -108,13 +108,50 @@ inline Lanes root(const Lanes& a) { return sqrt(max(a, 0.0f)); }
 /// √(r² − x²), 0 where x is beyond r.
 inline Lanes leg(float r, const Lanes& x) { return root((r - x) * (r + x)); }
 
-inline void store(const Lanes& a, float* out) {
-  for (int i = 0; i < vectors; ++i) __builtin_memcpy(out + i * per_vector, &a.v[i], sizeof(V));
-}
-/// To the nearest integer; a ≥ 0.
-inline void store_rounded(const Lanes& a, std::int32_t* out) {
+/// 8 + 8 bits of a direction of any length (brick.h): its octahedral image, each coordinate from
+/// −127 … 127 as 1 … 255.
+inline void store_direction(const Lanes& x, const Lanes& y, const Lanes& z, std::int32_t* out) {
+  const Lanes one = Lanes::all(1), minus = Lanes::all(-1);
+  const Lanes sum = max(abs(x) + abs(y) + abs(z), 1e-30f);
+  Lanes u = x / sum, v = y / sum;
+  const Mask folded = z < 0.0f;
+  const Lanes fold_u = (1.0f - abs(v)) * select(u < 0.0f, minus, one);
+  const Lanes fold_v = (1.0f - abs(u)) * select(v < 0.0f, minus, one);
+  u = select(folded, fold_u, u) * 127.0f + 128.5f;
+  v = select(folded, fold_v, v) * 127.0f + 128.5f;
   for (int i = 0; i < vectors; ++i) {
-    const W rounded = __builtin_convertvector(a.v[i] + 0.5f, W);
-    __builtin_memcpy(out + i * per_vector, &rounded, sizeof(W));
+    const W code = __builtin_convertvector(u.v[i], W) << 8 | __builtin_convertvector(v.v[i], W);
+    __builtin_memcpy(out + i * per_vector, &code, sizeof(W));
   }
+}
+
+/// Whole numbers in lanes.
+inline W load16(const std::uint16_t* from, int vector) {
+  typedef std::uint16_t H __attribute__((vector_size(AIRCUT_LANE_BYTES / 2)));
+  H half;
+  __builtin_memcpy(&half, from + vector * per_vector, sizeof half);
+  return __builtin_convertvector(half, W);
+}
+inline void store16(const W& value, std::uint16_t* to, int vector) {
+  typedef std::uint16_t H __attribute__((vector_size(AIRCUT_LANE_BYTES / 2)));
+  const H half = __builtin_convertvector(value, H);
+  __builtin_memcpy(to + vector * per_vector, &half, sizeof half);
+}
+inline W load32(const std::int32_t* from, int vector) {
+  W out;
+  __builtin_memcpy(&out, from + vector * per_vector, sizeof out);
+  return out;
+}
+
+/// A bit per lane.
+inline std::uint32_t bits(const W& mask) {
+#if defined(__AVX2__)
+  return static_cast<std::uint32_t>(_mm256_movemask_ps((__m256)mask));
+#elif defined(__SSE2__)
+  return static_cast<std::uint32_t>(_mm_movemask_ps((__m128)mask));
+#else
+  std::uint32_t out = 0;
+  for (int i = 0; i < per_vector; ++i) out |= (mask[i] != 0 ? 1u : 0u) << i;
+  return out;
+#endif
 }

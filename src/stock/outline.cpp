@@ -81,6 +81,8 @@ Outline::Outline(std::vector<Band> bands)
   floats_.high = f(high());
   floats_.wall_low = f(wall_low_);
   floats_.wall_high = f(wall_high_);
+  floats_.corners =
+      std::any_of(bands_.begin(), bands_.end(), [](const Band& b) { return b.arc > 0 && b.e > 0; });
   floats_.roof_edge = f(wall_high_);
 }
 

@@ -6,29 +6,10 @@
 namespace aircut::stock {
 namespace {
 
-bool at_border(int end) { return end == 0 || end == brick_quanta; }
-
 /// The smaller of two normals of ends at the same place, so that the order of cuts doesn't matter.
 NormalCode either(NormalCode a, NormalCode b) { return a == 0 ? b : std::min(a, b); }
 
-/// Normals of the chord's ends on one lane, computed when somebody needs them.
-struct LaneNormals {
-  const LocalSweep& sweep;
-  Family family;
-  int row;
-  const Chords& chords;
-
-  NormalCode at_a(int lane) const {
-    const int end = chords.a[lane];
-    return at_border(end) ? NormalCode{0}
-                          : wall_normal(sweep, family, row, lane, end, chords.ta[lane]);
-  }
-  NormalCode at_b(int lane) const {
-    const int end = chords.b[lane];
-    return at_border(end) ? NormalCode{0}
-                          : wall_normal(sweep, family, row, lane, end, chords.tb[lane]);
-  }
-};
+NormalCode code(std::int32_t normal) { return static_cast<NormalCode>(normal); }
 
 template <class F>
 void each_lane(std::uint32_t bits, F f) {
@@ -36,33 +17,31 @@ void each_lane(std::uint32_t bits, F f) {
 }
 
 /// The same as the kernel's `take` for the intervals beyond a ray's first.
-void take_extra(RayFamily& family, const LaneNormals& normals, RowLoss& loss) {
-  const Chords& chords = normals.chords;
+void take_extra(RayFamily& family, int row, const Chords& chords, RowLoss& loss) {
   std::vector<ExtraInterval> left;
   bool changed = false;
   for (const ExtraInterval& e : family.extra) {
     const int lane = e.ray % cells, a = chords.a[lane], b = chords.b[lane];
     Interval i = e.interval;
-    if (e.ray / cells != normals.row || a >= b || a > i.hi || b < i.lo) {
+    if (e.ray / cells != row || a >= b || a > i.hi || b < i.lo) {
       left.push_back(e);
       continue;
     }
     changed = true;
     if (a == i.hi || b == i.lo) {
-      if (a == i.hi) i.normal_hi = either(i.normal_hi, normals.at_a(lane));
-      if (b == i.lo) i.normal_lo = either(i.normal_lo, normals.at_b(lane));
+      if (a == i.hi) i.normal_hi = either(i.normal_hi, code(chords.normal_a[lane]));
+      if (b == i.lo) i.normal_lo = either(i.normal_lo, code(chords.normal_b[lane]));
       left.push_back({e.ray, i});
       continue;
     }
     const int lost = std::min<int>(b, i.hi) - std::max<int>(a, i.lo);
     loss.quanta += lost;
-    loss.deepest = std::max(loss.deepest, lost);
     if (a > i.lo)
       left.push_back(
-          {e.ray, {i.lo, static_cast<std::uint16_t>(a), i.normal_lo, normals.at_a(lane)}});
+          {e.ray, {i.lo, static_cast<std::uint16_t>(a), i.normal_lo, code(chords.normal_a[lane])}});
     if (b < i.hi)
       left.push_back(
-          {e.ray, {static_cast<std::uint16_t>(b), i.hi, normals.at_b(lane), i.normal_hi}});
+          {e.ray, {static_cast<std::uint16_t>(b), i.hi, code(chords.normal_b[lane]), i.normal_hi}});
   }
   if (!changed) return;
   loss.changed = true;
@@ -71,11 +50,9 @@ void take_extra(RayFamily& family, const LaneNormals& normals, RowLoss& loss) {
 
 }  // namespace
 
-RowLoss take_row(RayFamily& family, const LocalSweep& sweep, Family which, int row,
-                 const Chords& chords, const Kernels& kernels) {
-  const LaneNormals normals{sweep, which, row, chords};
+RowLoss take_row(RayFamily& family, int row, const Chords& chords, const Kernels& kernels) {
   RowLoss loss;
-  if (!family.extra.empty()) take_extra(family, normals, loss);
+  if (!family.extra.empty()) take_extra(family, row, chords, loss);
 
   const auto first = static_cast<std::size_t>(row * cells);
   std::uint16_t lo[cells], hi[cells], old_hi[cells];
@@ -94,7 +71,6 @@ RowLoss take_row(RayFamily& family, const LocalSweep& sweep, Family which, int r
   kernels.take(lo, hi, chords, change);
   if (!change.any()) return loss;
   loss.quanta += change.lost;
-  loss.deepest = std::max(loss.deepest, change.deepest);
   loss.changed = loss.changed || (change.low | change.high) != 0;
 
   if (!family.block) {
@@ -113,7 +89,7 @@ RowLoss take_row(RayFamily& family, const LocalSweep& sweep, Family which, int r
     const auto i = first + static_cast<std::size_t>(lane);
     family.extra.push_back({static_cast<std::uint16_t>(i),
                             {static_cast<std::uint16_t>(chords.b[lane]), old_hi[lane],
-                             normals.at_b(lane), block.normal_hi[i]}});
+                             code(chords.normal_b[lane]), block.normal_hi[i]}});
   });
   std::copy_n(lo, cells, &block.lo[first]);
   std::copy_n(hi, cells, &block.hi[first]);
@@ -121,14 +97,14 @@ RowLoss take_row(RayFamily& family, const LocalSweep& sweep, Family which, int r
   const auto at = [&](int lane) { return first + static_cast<std::size_t>(lane); };
   each_lane(emptied, [&](int lane) { block.normal_lo[at(lane)] = block.normal_hi[at(lane)] = 0; });
   each_lane(change.low & ~emptied,
-            [&](int lane) { block.normal_lo[at(lane)] = normals.at_b(lane); });
+            [&](int lane) { block.normal_lo[at(lane)] = code(chords.normal_b[lane]); });
   each_lane(change.high & ~emptied,
-            [&](int lane) { block.normal_hi[at(lane)] = normals.at_a(lane); });
+            [&](int lane) { block.normal_hi[at(lane)] = code(chords.normal_a[lane]); });
   each_lane(change.same_low, [&](int lane) {
-    block.normal_lo[at(lane)] = either(block.normal_lo[at(lane)], normals.at_b(lane));
+    block.normal_lo[at(lane)] = either(block.normal_lo[at(lane)], code(chords.normal_b[lane]));
   });
   each_lane(change.same_high, [&](int lane) {
-    block.normal_hi[at(lane)] = either(block.normal_hi[at(lane)], normals.at_a(lane));
+    block.normal_hi[at(lane)] = either(block.normal_hi[at(lane)], code(chords.normal_a[lane]));
   });
   return loss;
 }

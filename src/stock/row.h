@@ -2,7 +2,6 @@
 #pragma once
 
 #include "stock/brick.h"
-#include "stock/sweep.h"
 
 namespace aircut::stock {
 
@@ -10,12 +9,10 @@ namespace aircut::stock {
 struct RowLoss {
   bool changed = false;
   std::int64_t quanta = 0;
-  int deepest = 0;  ///< most on one ray
 };
 
-/// Takes the chords from the row. The normals of new ends come from the sweep.
-RowLoss take_row(RayFamily& family, const LocalSweep& sweep, Family which, int row,
-                 const Chords& chords, const Kernels& kernels);
+/// Takes the chords from the row.
+RowLoss take_row(RayFamily& family, int row, const Chords& chords, const Kernels& kernels);
 
 /// What taking would lose: the sum, the longest stretch and its middle (ray, quanta).
 struct RowTouch {

@@ -174,7 +174,8 @@ void settle(Brick& brick) {
     family.block.reset();
     family.full = full;
   }
-  brick.z_top = brick.family[2].top();
+  for (int row = 0; row < cells; ++row)
+    brick.z_tops[static_cast<std::size_t>(row)] = brick.family[2].top(row);
   for (std::size_t f = 0; f < 2; ++f) {
     int& rows = brick.rows[f];
     rows = cells;

@@ -8,9 +8,8 @@ namespace {
 
 using Vec2 = Eigen::Vector2d;
 
-constexpr double margin = 1e-5;       // mm, more than the kernels' rounding
-constexpr double shortest = 1e-7;     // mm in plan: what is less is a plunge
-constexpr double at_a_corner = 1e-4;  // mm: this near to two faces is at their edge
+constexpr double margin = 1e-5;    // mm, more than the kernels' rounding
+constexpr double shortest = 1e-7;  // mm in plan: what is less is a plunge
 
 double to_segment(const Sweep& sweep, const Vec2& p) {
   const Vec2 rel = p - sweep.start.head<2>();
@@ -35,41 +34,6 @@ bool crosses(const Sweep& sweep, const Vec2& low, double size) {
     to = std::min(to, std::max(p / u, q / u));
   }
   return from <= to;
-}
-
-/// A face of the cutter in (radius, height): its outward normal, and how far a point is from it.
-struct Face {
-  double distance, nr, nz;
-};
-
-/// The two faces nearest to a point of the surface.
-std::array<Face, 2> nearest_faces(const ShapeF& shape, double d, double z) {
-  std::array<Face, 2> best = {Face{1e9, 1, 0}, Face{1e9, 1, 0}};
-  const auto offer = [&](double distance, double nr, double nz) {
-    const Face face{distance, nr, nz};
-    if (distance < best[0].distance) {
-      best[1] = best[0];
-      best[0] = face;
-    } else if (distance < best[1].distance) {
-      best[1] = face;
-    }
-  };
-  const auto level_face = [&](double height, double radius, double nz) {
-    if (radius > 0) offer(std::hypot(z - height, std::max(d - radius, 0.0)), 0, nz);
-  };
-  level_face(shape.low, shape.bands.front().r0, -1);
-  level_face(shape.high, shape.bands.back().r1, 1);
-  for (const BandF& b : shape.bands) {
-    const double beyond = std::max({b.z0 - z, z - b.z1, 0.0});
-    if (b.arc > 0) {
-      const double r = d - b.e, q = z - b.f, n = std::hypot(r, q);
-      if (n > 0) offer(std::hypot(n - b.arc, beyond), r / n, q / n);
-      continue;
-    }
-    const double dr = b.r1 - b.r0, dz = b.z1 - b.z0, n = std::hypot(dr, dz);
-    offer(std::hypot(((d - b.r0) * dz - (z - b.z0) * dr) / n, beyond), dz / n, -dr / n);
-  }
-  return best;
 }
 
 }  // namespace
@@ -117,6 +81,11 @@ ColumnSweep ColumnSweep::of(const Sweep& sweep, const Lattice& lattice, int i, i
     out.cover_floor = sweep.tip_high + outline.floor_at(farthest) + margin;
     out.cover_roof = sweep.tip_low + outline.roof_at(farthest) - margin;
   }
+  const double reach = outline.radius() + margin;
+  const double y0 = std::min(sweep.start.y(), sweep.end.y()) - reach - low.y();
+  const double y1 = std::max(sweep.start.y(), sweep.end.y()) + reach - low.y();
+  out.first_row = static_cast<int>(std::clamp(y0 / lattice.pitch - 0.5, 0.0, double{cells}));
+  out.end_row = static_cast<int>(std::clamp(y1 / lattice.pitch + 0.5, 0.0, double{cells}));
   // The foot: where the path is nearest to the middle of the square.
   const Vec2 middle = low + Vec2::Constant(size / 2);
   const double along =
@@ -145,43 +114,6 @@ LocalSweep ColumnSweep::in_brick(const Lattice& lattice, int k) const {
 
 bool ColumnSweep::takes_all(double low, double high) const {
   return covers && low >= cover_floor && high <= cover_roof;
-}
-
-NormalCode wall_normal(const LocalSweep& sweep, Family family, int row, int lane, int end,
-                       float s) {
-  const double across = (lane + 0.5) * sweep.pitch, line = (row + 0.5) * sweep.pitch;
-  const double along = end * sweep.pitch / quanta_per_cell;
-  Vec3 p(along, across, line);
-  if (family == Family::y) p = {across, along, line};
-  if (family == Family::z) p = {across, line, along};
-  const Vec2 u(sweep.u[0], sweep.u[1]);
-  const double t = s;
-  const Vec2 out(p.x() - sweep.foot[0] - t * u.x(), p.y() - sweep.foot[1] - t * u.y());
-  const double d = out.norm();
-  const Vec2 radial = d > 1e-12 ? Vec2(out / d) : Vec2(1, 0);
-  double z = p.z() - sweep.foot[2] - sweep.slope * t;
-  // A plunge holds the cutter at all heights up to its rise: the side that counts is the widest.
-  if (sweep.rise > 0)
-    z = std::clamp<double>(z < sweep.shape->wall_low ? z : sweep.shape->wall_low, z - sweep.rise,
-                           z);
-  const auto [first, second] = nearest_faces(*sweep.shape, d, z);
-  double nr = first.nr, nz = first.nz;
-  // On an edge the swept surface's normal is the one in the edge's fan that is across the travel.
-  if (second.distance < at_a_corner) {
-    const double c = radial.dot(u);
-    const double v1 = first.nr * c + first.nz * sweep.slope;
-    const double v2 = second.nr * c + second.nz * sweep.slope;
-    const bool moving = t > sweep.s0 + at_a_corner && t < sweep.s1 - at_a_corner;
-    if (moving && v1 * v2 < 0) {
-      nr = first.nr * std::abs(v2) + second.nr * std::abs(v1);
-      nz = first.nz * std::abs(v2) + second.nz * std::abs(v1);
-    } else if (moving && std::abs(v2) < std::abs(v1)) {
-      nr = second.nr;
-      nz = second.nz;
-    }
-  }
-  const Vec3 outward(-nr * radial.x(), -nr * radial.y(), -nz);
-  return encode_normal(outward.normalized());
 }
 
 }  // namespace aircut::stock

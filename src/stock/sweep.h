@@ -29,7 +29,8 @@ struct ColumnSweep {
   bool covers = false;     ///< every point of the square is under the cutter at some time, …
   double cover_floor = 0;  ///< … and all between these heights is taken
   double cover_roof = 0;
-  LocalSweep local{};  ///< of the column's lowest brick
+  int first_row = 0, end_row = cells;  ///< of Z rays, that the cutter may reach
+  LocalSweep local{};                  ///< of the column's lowest brick
 
   static ColumnSweep of(const Sweep& sweep, const Lattice& lattice, int i, int j);
   bool touches() const { return nearest < local.shape->radius; }
@@ -37,9 +38,5 @@ struct ColumnSweep {
   /// The whole of the cells between two heights is taken, with more margin than rounding.
   bool takes_all(double low, double high) const;
 };
-
-/// Outward normal of the material that is left where a chord of this sweep ends: at quanta `end` of
-/// ray `lane` in row `row`, touched when the path parameter is `s`.
-NormalCode wall_normal(const LocalSweep& sweep, Family family, int row, int lane, int end, float s);
 
 }  // namespace aircut::stock
