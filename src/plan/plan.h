@@ -140,13 +140,14 @@ struct Segment {
   MotionKind kind = MotionKind::idle;
   Path path = Hold{};
   SpeedProfile profile;
-  double t_start = 0;      ///< program time, s
-  AxisValues tool_offset;  ///< length offset in force
-  bool merged = false;     ///< part of a chord that replaces several lines (G64 Q)
-  double feed = 0;         ///< commanded speed along the feed metric, mm/s (rad/s); 0 = rapid
-  int tool = 0;            ///< in the spindle; during a tool change still the old one
-  double spindle_rpm = 0;  ///< signed, clockwise positive
-  int work_system = 1;     ///< 1 = G54 … 9 = G59.3
+  double t_start = 0;        ///< program time, s
+  AxisValues tool_offset;    ///< length offset in force
+  bool rounds_feed = false;  ///< a blend of which at least one block is a feed move
+  bool merged = false;       ///< part of a chord that replaces several lines (G64 Q)
+  double feed = 0;           ///< commanded speed along the feed metric, mm/s (rad/s); 0 = rapid
+  int tool = 0;              ///< in the spindle; during a tool change still the old one
+  double spindle_rpm = 0;    ///< signed, clockwise positive
+  int work_system = 1;       ///< 1 = G54 … 9 = G59.3
   /// The part of the block's path that this segment covers (a block may be split by blends).
   double u0 = 0, u1 = 1;
   LimitedBy limited_by = LimitedBy::none;  ///< what held the speed longest

@@ -209,9 +209,11 @@ void Shaper::add_blend(const Move& left, const Move& right, const CornerBlend& c
     out.path = blend;
     return out;
   };
+  const auto feeds = [](const Move& move) { return move.segment.kind != MotionKind::rapid; };
   Segment in = half(left, first, true), out = half(right, second, false);
   const double left_length = length(left.segment.path);
   const auto part = [](const Move& move) { return move.segment.u1 - move.segment.u0; };
+  in.rounds_feed = out.rounds_feed = feeds(left) || feeds(right);
   in.u0 = in.u1 - part(left) * corner.cut / left_length;
   out.u1 = out.u0 + part(right) * corner.cut / length(right.segment.path);
   const double feed = left.feed;

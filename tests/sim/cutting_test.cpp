@@ -91,6 +91,12 @@ TEST_F(Cutting, LetsARapidGoBackThroughTheSlotThatWasCut) {
   EXPECT_EQ(run("G0 Z-85\nG1 X40\nG0 Z-85.1\nG0 X-50\n").count(Kind::rapid_cut), 1);
 }
 
+TEST_F(Cutting, TakesTheCurveBetweenFeedAndRapidForFeed) {
+  // The retract begins in the curve that rounds the corner, still with a part of the way along X.
+  EXPECT_EQ(run("G64 P1\nG0 Z-85\nG1 X0\nG0 Z-70\n").count(Kind::rapid_cut), 0);
+  EXPECT_GE(run("G64 P1\nG0 Z-85\nG0 X0\nG0 Z-70\n").count(Kind::rapid_cut), 1);
+}
+
 TEST_F(Cutting, NeedsATurningSpindle) {
   const RunResult r = run("M5\nG0 Z-85\nG1 X40\n");
   EXPECT_EQ(r.only(Kind::spindle_stopped_cut).span.line, 7u);

@@ -153,6 +153,18 @@ stock::Piece CuttingCheck::piece(const Solid& solid, const StraightMove& move, d
   return {&solid.profile, move.from, move.from + part * (move.to - move.from), move.axis, 0};
 }
 
+bool CuttingCheck::near(const Solid& solid, const StraightMove& move) const {
+  Box3 swept;
+  for (const Vec3& tip : {move.from, move.to})
+    for (const double z : {solid.profile.low(), solid.profile.high()})
+      swept.extend(Vec3(tip + z * move.axis));
+  const double r = solid.profile.radius(), margin = stock_->pitch();
+  const Vec3 across = (Vec3::Ones() - move.axis.cwiseAbs2()).cwiseMax(0).cwiseSqrt();
+  swept.min() -= r * across + Vec3::Constant(margin);
+  swept.max() += r * across + Vec3::Constant(margin);
+  return swept.intersects(stock_->box());
+}
+
 bool CuttingCheck::takes(const stock::Touch& touch) const {
   return touch.depth > deepest_touch || touch.volume > largest_touch;
 }
@@ -172,7 +184,9 @@ void CuttingCheck::hold(const Step& step, const Solid& cutter, const StraightMov
 
 void CuttingCheck::flush() {
   if (batch_.empty()) return;
-  if (auto cut = stock_->cut(batch_); !cut) return give_up(cut.error().message);
+  const auto cut = stock_->cut(batch_);
+  if (!cut) return give_up(cut.error().message);
+  for (const stock::Removal& removal : *cut) removed_ += removal.quanta;
   if (tape_) {
     for (std::size_t i = 0; i < batch_.size(); ++i) {
       stock::Piece piece = batch_[i];
@@ -192,8 +206,10 @@ void CuttingCheck::flush() {
 std::optional<Kind> CuttingCheck::forbidden(const Step& step) const {
   const plan::Segment& segment = step.segment;
   if (no_tool_) return Kind::no_tool_cut;
-  if (std::holds_alternative<canon::Rapid>(segment.command.action) ||
-      segment.kind == plan::MotionKind::rapid || segment.kind == plan::MotionKind::tool_change)
+  // Where a rapid and a feed move are rounded into one another, neither is at its full speed.
+  if (!segment.rounds_feed &&
+      (std::holds_alternative<canon::Rapid>(segment.command.action) ||
+       segment.kind == plan::MotionKind::rapid || segment.kind == plan::MotionKind::tool_change))
     return Kind::rapid_cut;
   const double rpm = segment.spindle_rpm;
   if (rpm == 0) return Kind::spindle_stopped_cut;
@@ -213,6 +229,16 @@ void CuttingCheck::step(const Step& step, Findings& out) {
     give_up("the way of the tool over the stock can't be told");
     return tell_given_up(step, out);
   }
+  rows_.clear();
+  look_at(step, out);
+  for (Finding& f : rows_) {
+    if (f.kind != Kind::collision && f.kind != Kind::near_miss && f.kind != Kind::no_tool_cut)
+      f.message += ": " + fixed(*f.value, *f.value < 10 ? 2 : 0) + " mm³ in its way";
+    out.add(std::move(f));
+  }
+}
+
+void CuttingCheck::look_at(const Step& step, Findings& out) {
   const std::optional<Kind> kind = forbidden(step);
   if (!tool_known_) {
     if (kind == Kind::rapid_cut || kind == Kind::spindle_stopped_cut) return;
@@ -224,19 +250,19 @@ void CuttingCheck::step(const Step& step, Findings& out) {
   for (const StraightMove& move : moves_) {
     const double rise = (move.to - move.from).dot(move.axis);
     if (rise > 0)
-      for (const Solid& solid : others_) ask(step, move, solid, out);
+      for (const Solid& solid : others_) ask(step, move, solid);
     for (const Solid& cutter : cutters_) {
       const double way = (move.to - move.from).norm();
       if (kind)
-        cutter_may_not(step, move, cutter, *kind, out);
+        cutter_may_not(step, move, cutter, *kind);
       else if (!center_cutting_ && -rise > way * std::cos(plunge_angle))
-        cutter_may_not(step, move, cutter, Kind::plunge_not_center_cutting, out);
-      else
+        cutter_may_not(step, move, cutter, Kind::plunge_not_center_cutting);
+      else if (near(cutter, move))
         hold(step, cutter, move);
       if (!given_up_.empty()) return tell_given_up(step, out);
     }
     if (rise <= 0)
-      for (const Solid& solid : others_) ask(step, move, solid, out);
+      for (const Solid& solid : others_) ask(step, move, solid);
     if (!given_up_.empty()) return tell_given_up(step, out);
   }
 }
@@ -249,7 +275,7 @@ void CuttingCheck::look_for_air(const Step& step, const std::vector<StraightMove
   for (const StraightMove& move : moves)
     for (const Solid& cutter : cutters_) {
       if (!stock()) return;
-      if (touch_of(piece(cutter, move)).depth > 0) return;
+      if (near(cutter, move) && touch_of(piece(cutter, move)).depth > 0) return;
     }
   Finding f = finding_at(Kind::air_cut, step, step.segment.t_start);
   f.t_end = step.segment.t_end();
@@ -263,7 +289,8 @@ void CuttingCheck::look_for_air(const Step& step, const std::vector<StraightMove
 }
 
 void CuttingCheck::cutter_may_not(const Step& step, const StraightMove& move, const Solid& cutter,
-                                  Kind kind, Findings& out) {
+                                  Kind kind) {
+  if (!near(cutter, move)) return;
   const stock::Piece whole = piece(cutter, move);
   if (!takes(touch_of(whole))) return;
   flush();
@@ -271,25 +298,20 @@ void CuttingCheck::cutter_may_not(const Step& step, const StraightMove& move, co
   const stock::Touch touch = touch_of(whole);
   if (!stock() || !takes(touch)) return;
   Finding f = row(kind, step, move, cutter, touch.point);
-  f.message = kind == Kind::no_tool_cut
-                  ? what_happens(kind, "")
-                  : what_happens(kind, "cutter `" + cutter.name + "`") + ": " +
-                        fixed(touch.volume, touch.volume < 10 ? 2 : 0) + " mm³ in its way";
+  f.message = what_happens(kind, "cutter `" + cutter.name + "`");
   f.remedy = remedy_of(kind, left_hand_);
-  f.depth = touch.depth;
   f.depth_bound = stock_->pitch() / 2;
-  f.value = touch.volume;
   f.unit = "mm3";
-  out.add(f);
+  f.value = 0;
+  tell(std::move(f), touch);
   if (kind != Kind::no_tool_cut) {
     hold(step, cutter, move);
     flush();
   }
 }
 
-void CuttingCheck::ask(const Step& step, const StraightMove& move, const Solid& solid,
-                       Findings& out) {
-  if (!stock()) return;
+void CuttingCheck::ask(const Step& step, const StraightMove& move, const Solid& solid) {
+  if (!stock() || !near(solid, move)) return;
   const stock::Piece whole = piece(solid, move);
   auto answer = stock_->would_cut(whole, options_.touch);
   if (answer && answer->contact == stock::Contact::clear) return;
@@ -304,7 +326,6 @@ void CuttingCheck::ask(const Step& step, const StraightMove& move, const Solid& 
       (solid.role == machine::Role::shank ? "tool shank `" : "tool holder `") + solid.name + "`";
   if (hit) {
     f.message = who + " runs into stock that the cutter leaves standing";
-    f.depth = std::max(answer->least, answer->touch.depth);
     f.depth_bound = answer->most - answer->least;
     f.remedy = "use a longer stick-out or flute length, or clear the material beside it first";
   } else {
@@ -313,7 +334,21 @@ void CuttingCheck::ask(const Step& step, const StraightMove& move, const Solid& 
     f.remedy = "a smaller [stock] pitch in the set-up decides it";
     f.unresolved = f.makes_unknown = true;
   }
-  out.add(f);
+  tell(std::move(f), answer->touch);
+}
+
+void CuttingCheck::tell(Finding f, const stock::Touch& touch) {
+  auto at = std::find_if(rows_.begin(), rows_.end(), [&](const Finding& other) {
+    return other.kind == f.kind && other.body_a == f.body_a;
+  });
+  if (at == rows_.end()) {
+    at = rows_.insert(at, std::move(f));
+  } else {
+    at->t_end = f.t_end;
+    at->u_end = f.u_end;
+  }
+  if (at->value) *at->value += touch.volume;
+  if (!at->unresolved) at->depth = std::max(at->depth.value_or(0), touch.depth);
 }
 
 Finding CuttingCheck::row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
@@ -353,7 +388,7 @@ void CuttingCheck::finish(Summary& summary) {
   s.pitch = stock_->pitch();
   s.sweep_bound = tolerance_;
   s.initial_volume = initial_volume_;
-  s.volume = stock_->volume();
+  s.volume = initial_volume_ - stock_->volume_of(removed_);
   s.bytes = stock_->bytes();
   summary.stock = s;
 }

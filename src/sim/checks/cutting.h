@@ -50,14 +50,18 @@ class CuttingCheck final : public Check {
   std::optional<Kind> forbidden(const Step& step) const;
   /// `part`: only this fraction of the move, from its start.
   stock::Piece piece(const Solid& solid, const StraightMove& move, double part = 1) const;
+  /// False when the solid passes outside of the box of the raw piece.
+  bool near(const Solid& solid, const StraightMove& move) const;
   bool takes(const stock::Touch& touch) const;
   stock::Touch touch_of(const stock::Piece& piece);
   void hold(const Step& step, const Solid& cutter, const StraightMove& move);
   void flush();
-  void cutter_may_not(const Step& step, const StraightMove& move, const Solid& cutter, Kind kind,
-                      Findings& out);
-  void ask(const Step& step, const StraightMove& move, const Solid& solid, Findings& out);
+  void look_at(const Step& step, Findings& out);
+  void cutter_may_not(const Step& step, const StraightMove& move, const Solid& cutter, Kind kind);
+  void ask(const Step& step, const StraightMove& move, const Solid& solid);
   void look_for_air(const Step& step, const std::vector<StraightMove>& moves, Findings& out);
+  /// Adds a row, or lengthens the one of this step that is the same.
+  void tell(Finding row, const stock::Touch& touch);
   Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
               const Vec3& point);
   void give_up(const std::string& why);
@@ -68,12 +72,14 @@ class CuttingCheck final : public Check {
   std::optional<stock::Stock> stock_;
   std::optional<CutTape> tape_;
   double initial_volume_ = 0, tolerance_ = 0;  ///< mm³, mm
+  std::int64_t removed_ = 0;                   ///< length of material taken on Z rays, quanta
   std::vector<Solid> cutters_, others_;
   std::map<const stock::CutterProfile*, const stock::CutterProfile*> taped_;  ///< of cutters_
   bool tool_known_ = true;  ///< its solids are known, or there is none
   bool center_cutting_ = true, left_hand_ = false, no_tool_ = true;
   Reach reach_;
   std::vector<StraightMove> moves_;  ///< of the step at hand
+  std::vector<Finding> rows_;        ///< likewise
   std::vector<stock::Piece> batch_;  ///< waiting to be cut
   std::vector<double> batch_times_;  ///< program time at the end of each
   std::string given_up_;             ///< why nothing more is known of the stock; empty: it is known
