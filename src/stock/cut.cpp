@@ -115,10 +115,13 @@ class ColumnCutter {
     const ColumnSweep& sweep = work.sweep;
     const double size = lattice().brick_size();
     each_brick(sweep, [&](int k, double bottom) {
-      if (sweep.takes_all(bottom, bottom + size)) return take_whole(k, work.slot);
+      if (sweep.tilted ? sweep.tilted->takes_all(brick_box(k))
+                       : sweep.takes_all(bottom, bottom + size))
+        return take_whole(k, work.slot);
       Brick& brick = take_out(k);
       const double quanta = (sweep.floor - bottom) / lattice().quantum() - 1;
       if (quanta > brick.z_top()) return;
+      if (sweep.tilted && sweep.tilted->misses(brick_box(k))) return;
       const std::size_t bytes = brick.bytes();
       RayFamily& family = brick.family[2];
       const LocalSweep local = sweep.in_brick(lattice(), k);
@@ -126,7 +129,14 @@ class ColumnCutter {
       for (int row = sweep.first_row; row < sweep.end_row; ++row) {
         std::uint16_t& top = brick.z_tops[static_cast<std::size_t>(row)];
         if (top == 0 || quanta > top) continue;
-        if (!kernels_.upright(local, row, family.lows(row), family.highs(row), chords_)) continue;
+        if (sweep.tilted) {
+          if (sweep.tilted->misses(row_box(k, Family::z, row))) continue;
+          if (!sweep.tilted->chords(lattice(), {i_, j_, k}, Family::z, row, family.lows(row),
+                                    family.highs(row), chords_))
+            continue;
+        } else if (!kernels_.upright(local, row, family.lows(row), family.highs(row), chords_)) {
+          continue;
+        }
         const RowLoss loss = take_row(family, row, chords_, kernels_);
         sums_.quanta[work.slot] += loss.quanta;
         if (!loss.changed) continue;
@@ -138,19 +148,34 @@ class ColumnCutter {
   }
 
   void cut_sides(const Work& work) {
-    each_brick(work.sweep, [&](int k, double bottom) {
+    each_brick(work.sweep, [&](int k, double) {
+      if (work.sweep.tilted && work.sweep.tilted->misses(brick_box(k))) return;
       Brick& brick = take_out(k);
       const std::size_t bytes = brick.bytes();
       const LocalSweep local = work.sweep.in_brick(lattice(), k);
       bool changed = false;
       for (const Family f : {Family::x, Family::y})
-        changed = cut_family(brick, f, work.sweep, local, bottom) || changed;
+        changed = cut_family(brick, k, f, work.sweep, local) || changed;
       put_back(k, changed, bytes);
     });
   }
 
-  bool cut_family(Brick& brick, Family f, const ColumnSweep& sweep, const LocalSweep& local,
-                  double bottom) {
+  Box3 brick_box(int k) const {
+    const Vec3 low = lattice().brick_size() * Vec3(i_, j_, k);
+    return {low, low + Vec3::Constant(lattice().brick_size())};
+  }
+
+  /// The box of a row's rays.
+  Box3 row_box(int k, Family f, int row) const {
+    Box3 out = brick_box(k);
+    const int axis = f == Family::z ? 1 : 2;
+    out.min()[axis] = out.max()[axis] = out.min()[axis] + (row + 0.5) * lattice().pitch;
+    return out;
+  }
+
+  bool cut_family(Brick& brick, int k, Family f, const ColumnSweep& sweep,
+                  const LocalSweep& local) {
+    const double bottom = k * lattice().brick_size();
     RayFamily& family = brick.family[static_cast<std::size_t>(index_of(f))];
     int& rows = brick.rows[static_cast<std::size_t>(index_of(f))];
     bool changed = false, walls_known = false;
@@ -159,6 +184,13 @@ class ColumnCutter {
       if (z < sweep.floor) continue;
       if (z > sweep.roof) break;
       if (family.row_empty(row)) continue;
+      if (sweep.tilted) {
+        if (sweep.tilted->misses(row_box(k, f, row))) continue;
+        if (sweep.tilted->chords(lattice(), {i_, j_, k}, f, row, family.lows(row),
+                                 family.highs(row), chords_))
+          changed = take_row(family, row, chords_, kernels_).changed || changed;
+        continue;
+      }
       // All rows that see only the straight wall have the same chords.
       const bool wall = sees_only_wall(local, row);
       if (wall && !walls_known) kernels_.level(local, f, row, nullptr, nullptr, walls_);
@@ -201,8 +233,12 @@ void each_column(const Sweep& sweep, const Lattice& lattice, F f) {
   int from[2], to[2];
   for (int a = 0; a < 2; ++a) {
     const double r = sweep.outline->radius() + margin, size = lattice.brick_size();
-    const double low = std::min(sweep.start[a], sweep.end[a]) - r;
-    const double high = std::max(sweep.start[a], sweep.end[a]) + r;
+    double low = std::min(sweep.start[a], sweep.end[a]) - r;
+    double high = std::max(sweep.start[a], sweep.end[a]) + r;
+    if (sweep.tilted) {
+      low = sweep.tilted->box().min()[a];
+      high = sweep.tilted->box().max()[a];
+    }
     const double last = lattice.bricks[static_cast<std::size_t>(a)] - 1;
     if (high < 0 || low > (last + 1) * size) return;
     from[a] = static_cast<int>(std::clamp(std::floor(low / size), 0.0, last));
@@ -282,13 +318,19 @@ class Toucher {
     if (!brick) {
       brick = &solid;
     }
+    const Vec3 low = stock_.lattice.brick_size() * Vec3(i, j, k);
+    if (sweep.tilted &&
+        sweep.tilted->misses({low, low + Vec3::Constant(stock_.lattice.brick_size())}))
+      return;
     const LocalSweep local = sweep.in_brick(stock_.lattice, k);
     Chords chords;
     for (const Family f : families) {
       const RayFamily& family = brick->family[static_cast<std::size_t>(index_of(f))];
       for (int row = 0; row < cells; ++row) {
         if (family.row_empty(row)) continue;
-        if (f == Family::z)
+        if (sweep.tilted)
+          sweep.tilted->chords(stock_.lattice, {i, j, k}, f, row, nullptr, nullptr, chords);
+        else if (f == Family::z)
           kernels().upright(local, row, nullptr, nullptr, chords);
         else
           kernels().level(local, f, row, nullptr, nullptr, chords);
@@ -323,10 +365,8 @@ Expected<void> supported(std::span<const Piece> pieces) {
   for (const Piece& piece : pieces) {
     if (!piece.start.allFinite() || !piece.end.allFinite())
       return unexpected(make_error("stock_unsupported", "a cutter's position is not a number"));
-    if ((piece.axis - Vec3::UnitZ()).norm() > 1e-12)
-      return unexpected(make_error("stock_unsupported",
-                                   "removing material with a tool axis that is not the stock's Z "
-                                   "is not modelled"));
+    if (!(std::abs(piece.axis.norm() - 1) < 1e-6))
+      return unexpected(make_error("stock_unsupported", "a tool axis is not a unit vector"));
   }
   return {};
 }

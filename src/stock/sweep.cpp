@@ -9,6 +9,7 @@ namespace {
 using Vec2 = Eigen::Vector2d;
 
 constexpr double margin = 1e-5;    // mm, more than the kernels' rounding
+constexpr double upright = 1e-12;  // of the axis' unit vector from Z
 constexpr double shortest = 1e-7;  // mm in plan: what is less is a plunge
 
 double to_segment(const Sweep& sweep, const Vec2& p) {
@@ -47,6 +48,8 @@ Sweep Sweep::of(const Outline& outline, const Piece& piece, const Lattice& latti
   out.slot = slot;
   out.tip_low = std::min(out.start.z(), out.end.z());
   out.tip_high = std::max(out.start.z(), out.end.z());
+  if ((piece.axis - Vec3::UnitZ()).norm() > upright)
+    out.tilted = std::make_shared<const TiltedSweep>(outline, out.start, out.end, piece.axis);
   const Vec2 travel = (out.end - out.start).head<2>();
   const double length = travel.norm();
   if (length > shortest) {
@@ -63,6 +66,19 @@ ColumnSweep ColumnSweep::of(const Sweep& sweep, const Lattice& lattice, int i, i
   const double size = lattice.brick_size();
   const Vec2 low(i * size, j * size);
   ColumnSweep out;
+  if (sweep.tilted) {
+    // Only its box is known here; bricks ask it for more.
+    const Box3& box = sweep.tilted->box();
+    out.tilted = sweep.tilted.get();
+    out.local.shape = &outline.floats();
+    out.floor = box.min().z();
+    out.roof = box.max().z();
+    const bool apart = box.max().x() < low.x() || box.min().x() > low.x() + size ||
+                       box.max().y() < low.y() || box.min().y() > low.y() + size;
+    out.nearest = apart ? outline.radius() : 0;
+    out.end_row = cells;
+    return out;
+  }
   double nearest = std::min(to_square(sweep.start.head<2>(), low, size),
                             to_square(sweep.end.head<2>(), low, size));
   double farthest = 0;

@@ -3,6 +3,7 @@
 
 #include "stock/outline.h"
 #include "stock/solid.h"
+#include "stock/tilted.h"
 
 namespace aircut::stock {
 
@@ -14,7 +15,8 @@ struct Sweep {
   double length = 0;                                     ///< in plan; 0: a plunge
   double slope = 0;
   double tip_low = 0, tip_high = 0;
-  std::size_t slot = 0;  ///< whom the removed length is credited to
+  std::shared_ptr<const TiltedSweep> tilted;  ///< null: the axis is Z
+  std::size_t slot = 0;                       ///< whom the removed length is credited to
 
   static Sweep of(const Outline& outline, const Piece& piece, const Lattice& lattice,
                   std::size_t slot);
@@ -23,6 +25,7 @@ struct Sweep {
 /// A sweep over one column of bricks: bounds that decide which bricks need their rays looked at,
 /// and the frame of the kernels. Heights are of the lattice.
 struct ColumnSweep {
+  const TiltedSweep* tilted = nullptr;
   double nearest = 0;      ///< from the column's square to the path, in plan
   double floor = 0;        ///< nothing below this is touched
   double roof = 0;         ///< nothing above this

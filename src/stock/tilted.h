@@ -1,0 +1,37 @@
+// Sweeps with a tool axis in any direction. Private to stock.
+#pragma once
+
+#include "stock/outline.h"
+#include "stock/solid.h"
+
+namespace aircut::stock {
+
+/// A convex body whose axis is not the lattice's Z, on a straight path; lattice frame.
+class TiltedSweep {
+ public:
+  TiltedSweep(const Outline& outline, const Vec3& start, const Vec3& end, const Vec3& axis);
+
+  const Box3& box() const { return box_; }
+
+  /// Proof that no point of a box is touched.
+  bool misses(const Box3& box) const;
+  /// Proof that all points of a box are taken, with more margin than rounding.
+  bool takes_all(const Box3& box) const;
+
+  /// The chords of a row's rays, like the kernels' (kernel.h).
+  bool chords(const Lattice& lattice, const std::array<int, 3>& brick, Family family, int row,
+              const std::uint16_t* lo, const std::uint16_t* hi, Chords& out) const;
+
+ private:
+  struct Ends;
+  void band_ends(const Band& band, const Vec3& origin, int ray_axis, Ends& ends) const;
+  bool holds(const Vec3& p) const;
+
+  const Outline* outline_;
+  std::vector<Band> bands_;  ///< corners with e > 0 as cones
+  Vec3 start_, travel_, axis_;
+  Box3 box_;
+  double tip_low_, tip_high_;  ///< of the tip, along the axis
+};
+
+}  // namespace aircut::stock
