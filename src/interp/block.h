@@ -96,7 +96,7 @@ struct Block {
   bool empty = true;             ///< nothing but blanks
   bool has_rules = false;        ///< has G or M words
   bool plain_settings = true;    ///< macro B: of no system variable
-  bool plain_move = true;        ///< nothing but axis words and perhaps G0 or G1
+  bool plain_move = true;        ///< nothing but words of a move (move_letters) and perhaps G0-G3
   std::uint32_t letters = 0;     ///< bit per letter_index of a word
   bool has_expressions = false;  ///< some word needs evaluation
   std::vector<Word> words;
@@ -142,6 +142,11 @@ constexpr std::uint32_t letter_bit(char letter) { return 1u << letter_index(lett
 constexpr std::uint32_t axis_letters = letter_bit('X') | letter_bit('Y') | letter_bit('Z') |
                                        letter_bit('A') | letter_bit('B') | letter_bit('C') |
                                        letter_bit('U') | letter_bit('V') | letter_bit('W');
+
+constexpr std::uint32_t centre_letters = letter_bit('I') | letter_bit('J') | letter_bit('K');
+/// What a line of a program mostly has.
+constexpr std::uint32_t move_letters =
+    axis_letters | centre_letters | letter_bit('R') | letter_bit('F');
 
 inline const Word* Block::find(char letter) const {
   const int at = slot[static_cast<std::size_t>(letter_index(letter))];

@@ -387,14 +387,29 @@ void BlockExecutor::perform(const BlockItem& item) {
                "only control points (G5.2 lines) may stand between G5.2 and G5.3");
     return;
   }
-  if (rule.group == ModalGroup::motion && !is_cycle(rule)) {
-    run_.state.cycle.code = 0;
-    run_.state.rigid_tapping = false;
-    if (rule.handler != single_pass) run_.state.turning.code = 0;
-  }
+  if (rule.group == ModalGroup::motion && !is_cycle(rule)) leave_cycle(rule);
   if (rule.group == ModalGroup::motion && mode_only_) return after_motion(rule);
   rule.handler(rule, run_);
   if (run_.ok() && rule.group == ModalGroup::motion) after_motion(rule);
+}
+
+void BlockExecutor::leave_cycle(const CodeRule& rule) {
+  run_.state.cycle.code = 0;
+  run_.state.rigid_tapping = false;
+  if (rule.handler != single_pass) run_.state.turning.code = 0;
+}
+
+bool BlockExecutor::move(const CodeRule& rule) {
+  if (!evaluate()) return false;
+  run_.motion_rule = &rule;
+  run_.axis_words_ = (block_.letters & axis_letters) != 0;
+  if (block_.letters & bit('F')) feed_word(run_);
+  if (run_.ok()) rule.handler(rule, run_);
+  if (!run_.ok()) return false;
+  leave_cycle(rule);
+  after_motion(rule);
+  ++run_.session.executed[CodeTable::slot(rule)];
+  return true;
 }
 
 void BlockExecutor::after_motion(const CodeRule& rule) {

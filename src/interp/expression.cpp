@@ -53,17 +53,8 @@ struct Machine {
 bool Machine::unary(const Instruction& at) {
   double& x = top();
   switch (at.op) {
-    case Op::negate:
-      x = -x;
-      return true;
     case Op::abs:
       x = std::fabs(x);
-      return true;
-    case Op::cos:
-      x = std::cos(x * degree);
-      return true;
-    case Op::sin:
-      x = std::sin(x * degree);
       return true;
     case Op::tan:
       x = std::tan(x * degree);
@@ -104,10 +95,6 @@ bool Machine::binary(const Instruction& at) {
   double& a = top();
   const auto truth = [](bool yes) { return yes ? 1.0 : 0.0; };
   switch (at.op) {
-    case Op::divide:
-      if (b == 0) return fail(at, "division by zero; the divisor must not be 0");
-      a /= b;
-      return true;
     case Op::modulo: {
       if (b == 0) return fail(at, "MOD by zero; the right side must not be 0");
       double rest = std::fmod(a, b);
@@ -239,6 +226,22 @@ std::optional<double> evaluate(const Value& value, const Code& code, const Param
         break;
       case Op::multiply:
         top = left() * right;
+        break;
+      case Op::divide:
+        if (right == 0) {
+          machine.fail(*at, "division by zero; the divisor must not be 0");
+          return std::nullopt;
+        }
+        top = left() / right;
+        break;
+      case Op::negate:
+        top = -top;
+        continue;
+      case Op::cos:
+        top = std::cos(top * degree);
+        break;
+      case Op::sin:
+        top = std::sin(top * degree);
         break;
       case Op::read:
         if (Parameters::always_readable(at->id)) {

@@ -53,28 +53,32 @@ constexpr std::array<Operator, 15> operators = {{{"**", Op::power, 5},
 
 // A plain number needs no instructions; everything else is compiled.
 bool LineParser::value(Value& out) {
+  const std::uint32_t begin = in_.position();
   const char c = in_.peek();
-  if (is_digit(c) || c == '.' || c == '-' || c == '+') {
-    const std::uint32_t begin = in_.position();
-    const bool negative = c == '-';
-    if (negative || c == '+') in_.advance();
+  const bool sign = c == '-' || c == '+';
+  if (sign) in_.advance();
+  if (in_.read_digits(out.number)) {
     const char next = in_.peek();
-    if (is_digit(next) || next == '.') {
-      if (!in_.read_digits(out.number))
-        return fail_from("bad_number", begin, "a number needs at least one digit");
-      if (!std::isfinite(out.number))
-        return fail_from("bad_number", begin, "the number is too large; keep it below 1e308");
-      if (in_.peek() == '.')
-        return fail_here("bad_number", "a second decimal point; a number has at most one");
-      if (in_.peek() == ',' && !table_.dialect().macro_b)
-        return fail_here("bad_number",
-                         "a comma inside a number; decimals are written with a point");
-      if (negative) out.number = -out.number;
-      out.count = 0;
-      return true;
-    }
-    in_.go_to(begin);
+    if (next == '.' || next == ',' || !std::isfinite(out.number))
+      if (!number_may_end(begin, out.number)) return false;
+    if (c == '-') out.number = -out.number;
+    return true;
   }
+  if (in_.peek() == '.') return fail_from("bad_number", begin, "a number needs at least one digit");
+  if (sign) in_.go_to(begin);
+  return compiled_value(out);
+}
+
+bool LineParser::number_may_end(std::uint32_t begin, double number) {
+  if (!std::isfinite(number))
+    return fail_from("bad_number", begin, "the number is too large; keep it below 1e308");
+  if (in_.peek() == '.')
+    return fail_here("bad_number", "a second decimal point; a number has at most one");
+  if (table_.dialect().macro_b) return true;
+  return fail_here("bad_number", "a comma inside a number; decimals are written with a point");
+}
+
+bool LineParser::compiled_value(Value& out) {
   out.first = static_cast<std::uint32_t>(out_.code.size());
   if (!operand()) return false;
   out.count = static_cast<std::uint32_t>(out_.code.size()) - out.first;

@@ -1,6 +1,8 @@
 // What the O-words do. Jumps go along the links of the FlowIndex; a frame per call holds the loops
 // that are running in it.
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -70,7 +72,7 @@ void Interpreter::Impl::execute_oword(Block& block) {
     case Keyword::while_:
       return entry(at).partner > at ? enter_while(block, at) : do_while(block, at);
     case Keyword::do_:
-      frame.loops.push_back({at, 1, 0, nullptr, 0});
+      frame.loops.push_back({at});
       return;
     case Keyword::repeat:
       return enter_repeat(block, at);
@@ -188,7 +190,7 @@ void Interpreter::Impl::enter_while(Block& block, int at) {
   const bool running = !loops.empty() && loops.back().entry == at;
   const auto value = condition(block);
   if (value && *value != 0) {
-    if (!running) loops.push_back({at, 1, 0, nullptr, 0});
+    if (!running) loops.push_back({at});
     return;
   }
   if (running) loops.pop_back();
@@ -312,16 +314,16 @@ std::shared_ptr<const CallFrame> Interpreter::Impl::current_calls() {
       made->site.length = head.place.length;
       made->site.line = head.line;
       made->site.calls = std::move(calls);
-      made->what.reserve(32);
-      if (head.keyword == Keyword::while_do) {
-        made->what += "DO" + head.label;
-      } else {
-        made->what += written_label(head.label);
-        made->what += ' ';
-        made->what += word_of(head.keyword);
-      }
-      made->what += ", pass ";
-      made->what += std::to_string(loop.pass);
+      if (loop.title.empty())
+        loop.title = (head.keyword == Keyword::while_do
+                          ? "DO" + head.label
+                          : written_label(head.label) + ' ' + word_of(head.keyword)) +
+                     ", pass ";
+      std::array<char, 20> digits;
+      char* const end = std::to_chars(digits.begin(), digits.end(), loop.pass).ptr;
+      made->what.reserve(loop.title.size() + digits.size());
+      made->what = loop.title;
+      made->what.append(digits.begin(), end);
       loop.frame = std::move(made);
       loop.frame_pass = loop.pass;
     }

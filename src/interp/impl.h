@@ -33,9 +33,10 @@ struct ProgramFile {
 struct Loop {
   int entry = -1;  ///< while, do or repeat
   std::uint64_t pass = 1;
-  std::uint64_t passes = 0;                ///< repeat: how many
-  std::shared_ptr<const CallFrame> frame;  ///< of pass `frame_pass`, made when somebody asks
+  std::uint64_t passes = 0;                     ///< repeat: how many
+  std::shared_ptr<const CallFrame> frame = {};  ///< of pass `frame_pass`, made when somebody asks
   std::uint64_t frame_pass = 0;
+  std::string title = {};  ///< `o100 while, pass `, with the first frame
 };
 
 /// A cycle that waits for its contour (contour_reading.cpp).
@@ -137,7 +138,9 @@ class Interpreter::Impl final : public Site, private LiveValues {
   bool is_percent_line(const ProgramFile& file, std::string_view line) const;
   void execute(Block& block);
   void execute_words(Block& block, const SuspendedBlock* rest = nullptr);
-  bool plain_move(const Block& block);
+  void finish_words(Block& block, BlockRun& run, std::size_t first);
+  const CodeRule* plain_motion(const Block& block) const;
+  bool plain_move(Block& block);
   bool plain_settings(const Block& block);
   bool count_block();
   void stop() { done_ = true; }
@@ -299,6 +302,8 @@ class BlockExecutor {
   bool values() { return evaluate() && settings(); }
   /// Goes on with a line whose remapped code was done by a sub.
   void resume(const SuspendedBlock& rest);
+  /// Only moves, by the code of that row (Interpreter::Impl::plain_move).
+  bool move(const CodeRule& rule);
 
  private:
   std::optional<double> value_of(const Value& value);
@@ -315,6 +320,7 @@ class BlockExecutor {
   void perform_from(std::size_t first);
   void perform(const BlockItem& item);
   void call_remap(std::size_t at);
+  void leave_cycle(const CodeRule& rule);
   void after_motion(const CodeRule& rule);
   void add(Phase phase, const CodeRule* rule, char letter);
   void drop_g80();

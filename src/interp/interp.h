@@ -152,7 +152,7 @@ class Interpreter {
     std::uint64_t count = 0;
   };
   /// Every code that the dialect knows with the number of blocks in which it acted, whether given
-  /// or modal. Lines that are nothing but a G0 or G1 move are not counted.
+  /// or modal.
   std::vector<CodeCount> code_counts() const;
 
  private:

@@ -221,55 +221,53 @@ void Interpreter::Impl::run_block(BlockRun& run, Block& block, const SuspendedBl
   BlockExecutor(run, block).execute(frame.file->text->content().substr(block.begin, block.length));
 }
 
-// The line that programs are made of: G0 or G1 (given or modal) with axis words and nothing else,
-// in a state in which nothing about it can go wrong. It needs no copy of the state. Everything else
-// takes the way through the table, which gives the same for this line.
-bool Interpreter::Impl::plain_move(const Block& block) {
-  if (!block.plain_move || block.words.empty()) return false;
-  ModalState& s = state_;
-  int motion = s.motion;
-  if (block.has_rules)
-    for (const Word& word : block.words)
-      if (word.rule) motion = word.rule->code;
-  const bool feeds = motion == 10;
-  if (motion != 0 && !feeds) return false;
-  if (!block.has_rules && !(block.letters & axis_letters)) return false;
-  if (feeds && (s.feed <= 0 || s.feed_mode != canon::FeedMode::per_minute)) return false;
-  if (s.comp.side != CompSide::off || s.comp.leaving || s.rotation != 0 || s.nurbs_points > 0 ||
-      s.frame.active() || s.turn_was_left || s.length_suspended || s.data_setting ||
-      s.lathe_diameter || s.polar.on || failed_ || session_.held)
-    return false;
-  AxisValues tip = s.tip;
-  const double unit = s.unit_mm();
-  std::optional<Fault> fault;
+// The row of the code that moves, of a line of G0 to G3 (given or modal) with the words of a move
+// and nothing else. Null when the table's checks would say something about the line, or when the
+// state is one in which such a line changes more than the position and what is modal about it.
+const CodeRule* Interpreter::Impl::plain_motion(const Block& block) const {
+  const ModalState& s = state_;
+  if (!block.plain_move || !block.warnings.empty() || failed_ || s.comp.side != CompSide::off ||
+      s.comp.leaving || s.nurbs_points > 0 || s.turn_is_fresh || s.turn_was_left ||
+      s.length_suspended || s.data_setting || s.polar.on || session_.held)
+    return nullptr;
+  const CodeRule* rule = nullptr;
   for (const Word& word : block.words) {
-    if (word.rule) continue;
+    if (word.rule) rule = word.rule;
+    if (!(letter_bit(word.letter) & axis_letters)) continue;
     const Axis axis = *axis_of_letter(word.letter);
-    if (!options_.axes.empty() && !options_.axes.has(axis)) return false;
-    if (options_.wrapped.has(axis) || options_.indexers.has(axis)) return false;
-    double number = word.number;
-    if (!word.text.constant()) {
-      const auto value = evaluate(word.text, block.code, parameters_, fault);
-      if (!value) return false;
-      number = *value;
-    }
-    const double value = number * (is_rotary(axis) ? radian_per_degree : unit);
-    tip[axis] = s.incremental ? tip[axis] + value : value + s.g92[axis] + s.work_offset[axis];
+    if (!options_.axes.empty() && !options_.axes.has(axis)) return nullptr;
+    if (options_.wrapped.has(axis) || options_.indexers.has(axis)) return nullptr;
   }
-  canon::Command& command = queue_.emplace_back();
-  if (feeds)
-    command.action = canon::LinearFeed{tip};
-  else
-    command.action = canon::Rapid{tip};
-  command.span = span();
-  command.block = block_number();
-  s.tip = tip;
-  s.motion = motion;
-  s.cycle.code = 0;
-  s.rigid_tapping = false;
-  s.spline.valid = false;
-  idle_blocks_ = 0;
-  return true;
+  if (!rule) {
+    const bool arc = s.motion == 20 || s.motion == 30;
+    const std::uint32_t enough = axis_letters | (arc ? centre_letters : 0);
+    if (s.motion > 30 || !(block.letters & enough)) return nullptr;
+    rule = table_.find_g(s.motion);
+  }
+  const RemapSet& remaps = session_.remaps;
+  if (!remaps.empty()) {
+    rule = remaps.in_force(rule);
+    if (remaps.of(rule) || ((block.letters & letter_bit('F')) && remaps.of('F'))) return nullptr;
+  }
+  constexpr std::uint32_t arc_letters = centre_letters | letter_bit('R');
+  return rule && (rule->code >= 20 || !(block.letters & arc_letters)) ? rule : nullptr;
+}
+
+// What programs are made of. The code works on the state itself: when it fails, only the feed has
+// changed. The table then goes through the line again and tells what is wrong with it.
+bool Interpreter::Impl::plain_move(Block& block) {
+  const CodeRule* rule = plain_motion(block);
+  if (!rule) return false;
+  const std::size_t first = queue_.size();
+  const double feed = state_.feed;
+  BlockRun run(session_, block, state_, *this, queue_);
+  if (BlockExecutor(run, block).move(*rule)) {
+    finish_words(block, run, first);
+    return true;
+  }
+  state_.feed = feed;
+  queue_.resize(first);
+  return false;
 }
 
 // A line of settings and nothing else, none of which can fail once its value is known. As above,
@@ -354,9 +352,15 @@ void Interpreter::Impl::execute_words(Block& block, const SuspendedBlock* rest) 
     if (std::string_view(run.fault()->kind) == "alarm") stop();
     return;
   }
-  parameters_.commit();
   if (failed_) clear_unsure(block, state_.tip);
   state_ = next_;
+  finish_words(block, run, first);
+}
+
+// A block has succeeded: what it says, and what it asks of the flow of control. Its commands begin
+// at `first` in the queue.
+void Interpreter::Impl::finish_words(Block& block, BlockRun& run, std::size_t first) {
+  parameters_.commit();
   Frame& frame = frames_.back();
   if (run.stack.drop) frame.saved.reset();
   if (run.stack.save) frame.saved = run.stack.save;

@@ -31,47 +31,50 @@ bool Cursor::accept_word(std::string_view word) {
   return true;
 }
 
-std::uint32_t Cursor::length_since(std::uint32_t begin) const {
-  std::size_t end = at_ < line_.size() ? at_ : line_.size();
-  while (end > begin && (line_[end - 1] == ' ' || line_[end - 1] == '\t')) --end;
-  return static_cast<std::uint32_t>(end - begin);
+// A decimal of up to 15 digits (so below 2^53) is mantissa / 10^k with a single, correct rounding;
+// others, and those with blanks inside, go the long way.
+bool Cursor::read_digits(double& number) {
+  const char* const begin = line_.data() + at_;
+  const char* const end = line_.data() + line_.size();
+  const char* at = begin;
+  std::uint64_t mantissa = 0;  // of too many digits nothing is used
+  const auto take_digits = [&] {
+    const char* const first = at;
+    for (; at != end && is_digit(*at); ++at)
+      mantissa = mantissa * 10 + static_cast<unsigned>(*at - '0');
+    return at - first;
+  };
+  std::ptrdiff_t digits = take_digits(), decimals = 0;
+  const bool point = at != end && *at == '.';
+  if (point) {
+    ++at;
+    decimals = take_digits();
+    digits += decimals;
+  }
+  const char* next = at;
+  while (next != end && (*next == ' ' || *next == '\t')) ++next;
+  const bool goes_on = next != at && next != end && (is_digit(*next) || (*next == '.' && !point));
+  if (goes_on || digits > most_digits) return read_long_digits(number);
+  if (digits == 0) return false;
+  at_ = static_cast<std::size_t>(next - line_.data());
+  number = static_cast<double>(mantissa) / powers_of_ten[static_cast<std::size_t>(decimals)];
+  return true;
 }
 
-// A decimal of up to 15 digits (so below 2^53) is mantissa / 10^k with a single,
-// correct rounding; others go the long way.
-bool Cursor::read_digits(double& number) {
+bool Cursor::read_long_digits(double& number) {
   const std::size_t start = at_;
-  std::uint64_t mantissa = 0;
-  int digits = 0;
-  int decimals = 0;
+  std::string plain;
   bool point = false;
-  while (at_ < line_.size()) {
+  for (; at_ < line_.size(); advance()) {
     const char c = line_[at_];
-    if (is_digit(c)) {
-      if (digits < most_digits) mantissa = mantissa * 10 + static_cast<unsigned>(c - '0');
-      ++digits;
-      decimals += point ? 1 : 0;
-      ++at_;
-    } else if (c == '.' && !point) {
-      point = true;
-      ++at_;
-    } else if (c == ' ' || c == '\t') {
-      skip();
-    } else {
-      break;
-    }
+    if (!is_digit(c) && (c != '.' || point)) break;
+    point = point || c == '.';
+    plain += c;
   }
-  if (digits == 0) {
+  if (plain.empty() || plain == ".") {
     at_ = start;
     return false;
   }
-  if (digits <= most_digits) {
-    number = static_cast<double>(mantissa) / powers_of_ten[static_cast<std::size_t>(decimals)];
-    return true;
-  }
-  std::string plain;
-  for (std::size_t i = start; i < at_; ++i)
-    if (is_digit(line_[i]) || line_[i] == '.') plain += line_[i];
   if (plain.front() == '.') plain.insert(0, "0");
   number = std::numeric_limits<double>::infinity();  // stays when it is out of range
   std::from_chars(plain.data(), plain.data() + plain.size(), number, std::chars_format::fixed);

@@ -35,13 +35,18 @@ class Cursor {
   }
   std::string_view line() const { return line_; }
   /// Bytes from `begin` to here without the blanks at the end.
-  std::uint32_t length_since(std::uint32_t begin) const;
+  std::uint32_t length_since(std::uint32_t begin) const {
+    std::size_t end = at_ < line_.size() ? at_ : line_.size();
+    while (end > begin && (line_[end - 1] == ' ' || line_[end - 1] == '\t')) --end;
+    return static_cast<std::uint32_t>(end - begin);
+  }
 
   /// A number without sign: digits with at most one point. False (and no advance) when there is
   /// none.
   bool read_digits(double& number);
 
  private:
+  bool read_long_digits(double& number);
   static char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
   void skip() {
     while (at_ < line_.size() && (line_[at_] == ' ' || line_[at_] == '\t')) ++at_;

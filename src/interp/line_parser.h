@@ -51,7 +51,11 @@ class LineParser {
   bool line_number();
   bool word(char letter);
   bool word_behind(std::uint32_t begin, char letter);
+  bool misplaced_word(char letter);
+  bool read_word(Word& word);
   bool add_word(Word& word);
+  bool too_many_codes(const Word& word);
+  bool second_word(const Word& word);
   bool setting();
   bool oword();
   bool oword_arguments();
@@ -74,6 +78,7 @@ class LineParser {
   bool loop_number(std::uint32_t begin, Keyword keyword);
   bool output_statement(std::uint32_t begin);
   bool condition();
+  bool read_macro_word(Word& word);
   bool add_macro_word(Word& word);
   bool macro_setting(Setting& setting);
 
@@ -89,6 +94,8 @@ class LineParser {
   void note_logic(const Operator& op, Place place);
 
   bool value(Value& out);
+  bool number_may_end(std::uint32_t begin, double number);
+  bool compiled_value(Value& out);
   bool operand();
   bool expression_in_brackets();
   bool climb(int level);

@@ -74,7 +74,7 @@ void Interpreter::Impl::enter_do(Block& block, int at) {
   auto& loops = frames_.back().loops;
   const bool running = !loops.empty() && loops.back().entry == at;
   if (block.oword.arguments.empty() || is_true(condition(block))) {
-    if (!running) loops.push_back({at, 1, 0, nullptr, 0});
+    if (!running) loops.push_back({at});
     return;
   }
   if (running) loops.pop_back();

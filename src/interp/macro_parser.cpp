@@ -271,7 +271,19 @@ bool LineParser::output_statement(std::uint32_t begin) {
               "the bracket '[' is not closed; add ']'");
 }
 
-// The last one of a letter counts, except for the arguments of a macro, which may repeat I J K.
+bool LineParser::read_macro_word(Word& word) {
+  const std::uint32_t begin = in_.position();
+  address_ = word.letter;
+  if (!value(word.text)) return false;
+  address_ = 0;
+  word.place.length = in_.length_since(word.place.begin);
+  const std::string_view text = in_.line().substr(begin, in_.length_since(begin));
+  word.no_point = word.text.constant() && text.find_first_of(".[") == std::string_view::npos;
+  return add_macro_word(word);
+}
+
+// `word` is the last one of the block. The last one of a letter counts, except for the arguments of
+// a macro, which may repeat I J K.
 bool LineParser::add_macro_word(Word& word) {
   if (macro_words_ && word.letter != 'P' && word.letter != 'L') {
     if (word.letter == 'G')
@@ -281,6 +293,7 @@ bool LineParser::add_macro_word(Word& word) {
       return fail("limit_reached", word.place.begin, word.place.length,
                   "more than 100 arguments of a macro");
     out_.macro_words.push_back(word);
+    out_.words.pop_back();
     return true;
   }
   if (word.letter != 'G' && word.letter != 'M') {
@@ -293,6 +306,7 @@ bool LineParser::add_macro_word(Word& word) {
       if (!word.text.constant()) out_.has_expressions = true;
       word.number = word.text.number;
       out_.words[static_cast<std::size_t>(before)] = word;
+      out_.words.pop_back();
       return true;
     }
   }

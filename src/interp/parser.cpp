@@ -5,6 +5,12 @@
 #include "interp/line_parser.h"
 
 namespace aircut::interp {
+namespace {
+
+constexpr int max_g_words = 20;  // as many as there are modal groups
+
+}  // namespace
+
 std::optional<Fault> LineParser::parse() {
   if (in_.at_end()) return std::nullopt;
   out_.empty = false;
@@ -39,10 +45,11 @@ bool LineParser::line_number() {
 
 bool LineParser::item() {
   const char c = in_.peek();
+  if (is_letter(c)) return word(c);
   if (c == '(') return comment();
   if (c == ';') return semicolon();
   if (c == '#') return setting();
-  if (is_letter(c) || c == '$' || c == '@' || c == '^') return word(c);
+  if (c == '$' || c == '@' || c == '^') return word(c);
   if (c == '/')
     return fail_here("bad_character", "'/' (block delete) may only be the first character");
   if (c == '%') return fail_here("bad_character", "'%' must stand alone on its line");
@@ -78,57 +85,72 @@ bool LineParser::semicolon() {
 }
 
 bool LineParser::word(char letter) {
-  if (letter == 'n') return fail_here("misplaced_word", "N must be the first word of the line");
-  if (letter == 'o')
-    return fail_here("misplaced_word", "an O-word must be the first word of the line (after N)");
+  if (letter == 'n' || letter == 'o') return misplaced_word(letter);
   return word_behind(in_.position(), is_letter(letter) ? static_cast<char>(letter - 32) : letter);
 }
 
-// The value of a word that begins at `begin`; the cursor stands on its letter.
-bool LineParser::word_behind(std::uint32_t begin_of_word, char letter) {
-  Word word;
-  word.place.begin = begin_of_word;
+// The value of a word that begins at `begin`; the cursor stands on its letter. The word is made
+// where it stays; a refused one is taken away again.
+bool LineParser::word_behind(std::uint32_t begin, char letter) {
+  const std::size_t before = out_.words.size();
+  Word& word = out_.words.emplace_back();
+  word.place.begin = begin;
   word.letter = letter;
   in_.advance();
-  const std::uint32_t begin = in_.position();
-  address_ = word.letter;
-  if (!value(word.text)) return false;
-  address_ = 0;
-  word.place.length = in_.length_since(word.place.begin);
-  if (!table_.dialect().macro_b) return add_word(word);
-  const std::string_view text = in_.line().substr(begin, in_.length_since(begin));
-  word.no_point = word.text.constant() && text.find_first_of(".[") == std::string_view::npos;
-  return add_macro_word(word);
+  if (table_.dialect().macro_b ? read_macro_word(word) : read_word(word)) return true;
+  out_.words.resize(before);
+  return false;
 }
 
+bool LineParser::misplaced_word(char letter) {
+  if (letter == 'n') return fail_here("misplaced_word", "N must be the first word of the line");
+  return fail_here("misplaced_word", "an O-word must be the first word of the line (after N)");
+}
+
+bool LineParser::read_word(Word& word) {
+  if (!value(word.text)) return false;
+  word.place.length = in_.length_since(word.place.begin);
+  return add_word(word);
+}
+
+// `word` is the last one of the block.
 bool LineParser::add_word(Word& word) {
+  const std::uint32_t bit = letter_bit(word.letter);
+  bool plain = (bit & move_letters) != 0;
   if (word.letter == 'G' || word.letter == 'M') {
     out_.has_rules = true;
-    if (word.letter == 'M' && ++m_words_ > table_.dialect().max_m_words)
-      return fail("too_many_m", word.place.begin, word.place.length,
-                  "more than " + std::to_string(table_.dialect().max_m_words) +
-                      " M words on one line; put the others on a line of their own");
-    if (word.letter == 'G' && ++g_groups_ > 20)
-      return fail("modal_clash", word.place.begin, word.place.length,
-                  "more G words on this line than there are modal groups");
+    int& count = word.letter == 'G' ? g_groups_ : m_words_;
+    if (++count > (word.letter == 'G' ? max_g_words : table_.dialect().max_m_words))
+      return too_many_codes(word);
     if (word.text.constant()) word.rule = table_.find(word.letter, word.text.number);
+    plain = word.rule && word.letter == 'G' && word.rule->code <= 30 && word.rule->code % 10 == 0 &&
+            g_groups_ == 1;
   } else {
     auto& slot = out_.slot[static_cast<std::size_t>(letter_index(word.letter))];
-    if (slot >= 0)
-      return fail("duplicate_word", word.place.begin, word.place.length,
-                  std::string("a second ") + word.letter + " word on this line; one is allowed");
-    slot = static_cast<std::int8_t>(out_.words.size());
+    if (slot >= 0) return second_word(word);
+    slot = static_cast<std::int8_t>(out_.words.size() - 1);
   }
-  const std::uint32_t bit = letter_bit(word.letter);
-  const bool plain_g = word.rule && word.letter == 'G' && word.rule->code <= 10 && g_groups_ == 1;
-  if (!(bit & axis_letters) && !plain_g) out_.plain_move = false;
+  if (!plain) out_.plain_move = false;
   out_.letters |= bit;
   if (word.text.constant())
     word.number = word.text.number;
   else
     out_.has_expressions = true;
-  out_.words.push_back(word);
   return true;
+}
+
+bool LineParser::too_many_codes(const Word& word) {
+  if (word.letter == 'G')
+    return fail("modal_clash", word.place.begin, word.place.length,
+                "more G words on this line than there are modal groups");
+  return fail("too_many_m", word.place.begin, word.place.length,
+              "more than " + std::to_string(table_.dialect().max_m_words) +
+                  " M words on one line; put the others on a line of their own");
+}
+
+bool LineParser::second_word(const Word& word) {
+  return fail("duplicate_word", word.place.begin, word.place.length,
+              std::string("a second ") + word.letter + " word on this line; one is allowed");
 }
 
 bool LineParser::setting() {

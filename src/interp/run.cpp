@@ -27,17 +27,16 @@ std::optional<double> BlockRun::increment(Axis which) const {
   return which == Axis::x && state.lathe_diameter ? length(letter) / 2 : length(letter);
 }
 
+bool BlockRun::is_axis(Axis which) const {
+  if (has_increments() && which >= Axis::u) return false;
+  return !is_rotary(which) || !session.table.lathe() || session.options.axes.empty() ||
+         session.options.axes.has(which);
+}
+
 std::optional<double> BlockRun::axis(Axis which) const {
-  if (has_increments() && which >= Axis::u) return std::nullopt;
-  // A and C of a lathe without these axes are an angle and a corner.
-  if (is_rotary(which) && session.table.lathe() && !session.options.axes.empty() &&
-      !session.options.axes.has(which))
-    return std::nullopt;
   const Word* word = block.find(letter(which));
-  if (!word) return std::nullopt;
-  if (is_rotary(which)) return word->number * radian_per_degree;
-  const double value = word->number * state.unit_mm();
-  return which == Axis::x && state.lathe_diameter ? value / 2 : value;
+  if (!word || !is_axis(which)) return std::nullopt;
+  return axis_number(*word, which);
 }
 
 Place BlockRun::place(char letter) const {
@@ -75,33 +74,11 @@ void BlockRun::info(const char* kind, const CodeRule& rule, std::string message)
 }
 
 canon::Command BlockRun::make(canon::Action action, std::string expanded) {
-  canon::Command command;
-  command.action = std::move(action);
-  command.expanded = std::move(expanded);
-  command.span = speaks_for_ ? speaks_for_->span : site_.span();
-  command.block = speaks_for_ ? speaks_for_->block : site_.block_number();
-  return command;
-}
-
-void BlockRun::emit(canon::Action action, std::string expanded) {
-  if (session.held)
-    session.held->waiting.push_back(make(std::move(action), std::move(expanded)));
-  else if (session.compensator.holds())
-    session.compensator.hold(make(std::move(action), std::move(expanded)));
-  else
-    emit_now(std::move(action), std::move(expanded));
+  return {std::move(action), span(), block_of_command(), std::move(expanded)};
 }
 
 void BlockRun::emit_held(canon::Action action) {
   session.compensator.hold(make(std::move(action), {}));
-}
-
-void BlockRun::emit_now(canon::Action action, std::string expanded) {
-  canon::Command& command = out_.emplace_back();
-  command.action = std::move(action);
-  command.span = speaks_for_ ? speaks_for_->span : site_.span();
-  command.block = speaks_for_ ? speaks_for_->block : site_.block_number();
-  if (!expanded.empty()) command.expanded = std::move(expanded);
 }
 
 void BlockRun::pass_on(canon::Command command) {

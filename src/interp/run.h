@@ -34,7 +34,7 @@ struct Session {
   OffsetMemory offsets{};               ///< Fanuc, Haas
   AxisValues skip_position{};           ///< of the last G31, with the tool offset: work coordinates
   RemapSet remaps{};
-  std::optional<HeldMove> held{};       ///< waits for the next block's move
+  std::optional<HeldMove> held{};  ///< waits for the next block's move
 };
 
 /// What a block asks of the flow of control once it has succeeded.
@@ -132,6 +132,14 @@ class BlockRun {
   double block_count() const { return static_cast<double>(site_.block_number()); }
   /// An axis word's number in mm or rad, X halved in diameter mode; nothing without the word.
   std::optional<double> axis(Axis which) const;
+  /// False when the axis' letter means something else: U V W of lathes are increments, and A and C
+  /// of a lathe without these axes an angle and a corner.
+  bool is_axis(Axis which) const;
+  double axis_number(const Word& word, Axis which) const {
+    if (is_rotary(which)) return word.number * radian_per_degree;
+    const double value = word.number * state.unit_mm();
+    return which == Axis::x && state.lathe_diameter ? value / 2 : value;
+  }
   /// Lathes of Fanuc and Haas: U, V and W are increments of X, Y and Z.
   bool has_increments() const {
     return session.options.lathe && session.options.dialect != Dialect::linuxcnc;
@@ -171,9 +179,20 @@ class BlockRun {
   const std::vector<Fault>& infos() const { return infos_; }
 
   /// Appends a command; while radius compensation holds a move back, it waits behind that move.
-  void emit(canon::Action action, std::string expanded = {});
+  template <class A>
+  void emit(A action, std::string expanded = {}) {
+    if (session.held)
+      session.held->waiting.push_back(make(std::move(action), std::move(expanded)));
+    else if (session.compensator.holds())
+      session.compensator.hold(make(std::move(action), std::move(expanded)));
+    else
+      emit_now(std::move(action), std::move(expanded));
+  }
   /// Appends it in front of anything that is held back.
-  void emit_now(canon::Action action, std::string expanded = {});
+  template <class A>
+  void emit_now(A action, std::string expanded = {}) {
+    out_.emplace_back(std::move(action), span(), block_of_command(), std::move(expanded));
+  }
   /// Hands a move to the compensation, which holds it back.
   void emit_held(canon::Action action);
   /// Appends a command that has its place already.
@@ -209,6 +228,10 @@ class BlockRun {
  private:
   friend class BlockExecutor;
   canon::Command make(canon::Action action, std::string expanded);
+  const SourceSpan& span() { return speaks_for_ ? speaks_for_->span : site_.span(); }
+  std::uint64_t block_of_command() const {
+    return speaks_for_ ? speaks_for_->block : site_.block_number();
+  }
 
   Site& site_;
   std::vector<canon::Command>& out_;

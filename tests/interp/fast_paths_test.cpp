@@ -72,6 +72,29 @@ TEST(FastPaths, GiveTheSameForLinesInAnyState) {
                                           "G3 X1 Y0 I-2",
                                           "G2 X1 Z1 R5",
                                           "G2 I1",
+                                          "G3 X3 Y3 Z1 A5 J2 F50",
+                                          "G3 X0 Y0 R-8",
+                                          "G2 X4 R[#1+3]",
+                                          "G2 X#1 I[#2/#1]",
+                                          "X2 I1",
+                                          "I-3",
+                                          "K1",
+                                          "R2",
+                                          "X3 R2 I1",
+                                          "G3 X1 Z2 I1 K1",
+                                          "G2 Y5 Z5 K3",
+                                          "G2 X3 P2 I1.5",
+                                          "G2 X900 Y5 I1",
+                                          "G2 U1 I1",
+                                          "G2.1 X1",
+                                          "G2",
+                                          "G1 X2 I1",
+                                          "G1 X5 F30",
+                                          "X1 F0",
+                                          "Y6 F-1",
+                                          "F10 Z2",
+                                          "G0 X3 F[#1*9]",
+                                          "G93 G1 X2 F3",
                                           "X7 R9",
                                           "G17",
                                           "G18",
@@ -148,6 +171,78 @@ TEST(FastPaths, GiveTheSameForLinesInAnyState) {
       for (const Axis axis : {Axis::x, Axis::y, Axis::z}) setting.options.axes.add(axis);
     expect_same("F100\n" + program + "M2\n", setting);
   }
+}
+
+// The same for lines of Fanuc's and Haas' dialects, with a macro behind every move now and then.
+TEST(FastPaths, GiveTheSameForLinesOfOtherControls) {
+  const std::vector<std::string> lines = {"G0 X1. Y2.",
+                                          "G1 X4. Y1.",
+                                          "Z3.",
+                                          "X1",
+                                          "X.5 F30.",
+                                          "G1 Y7. F50",
+                                          "X#100",
+                                          "G2 X5. R5.",
+                                          "G3 I2.",
+                                          "X2. I1. J1.",
+                                          "G2 X9. Y9. I1.",
+                                          "U1.",
+                                          "W-2. X1.",
+                                          "G17",
+                                          "G18",
+                                          "G90",
+                                          "G91",
+                                          "G20",
+                                          "G21",
+                                          "G68 X0 Y0 R30.",
+                                          "G69",
+                                          "G51.1 X0",
+                                          "G50.1 X0",
+                                          "G51 X0 Y0 P2.",
+                                          "G50",
+                                          "G52 X1.",
+                                          "G43 H1 Z5.",
+                                          "G49",
+                                          "G28 Z0",
+                                          "G66 P9100 A5.",
+                                          "G67",
+                                          "G65 P9100 A1.",
+                                          "G81 Z-3. R2. F20.",
+                                          "G80",
+                                          "#100=#4001",
+                                          "#101=#4124",
+                                          "#100=#5041",
+                                          "X1. X2.",
+                                          "N30 X3.",
+                                          "G40",
+                                          "G90 X3. Z-4. F9.",
+                                          "G4 P100",
+                                          "M3 S100",
+                                          "G94",
+                                          "G95 F.1"};
+  std::mt19937 random(12);
+  for (int round = 0; round < 400; ++round) {
+    std::string program = "O1\nF100.\n";
+    for (int i = 0; i < 25; ++i) program += lines[random() % lines.size()] + "\n";
+    Setting setting;
+    setting.options.dialect = round % 3 == 0 ? interp::Dialect::haas : interp::Dialect::fanuc;
+    setting.options.lathe = round % 4 == 0;
+    if (round % 5 == 1)
+      for (const Axis axis : {Axis::x, Axis::y, Axis::z}) setting.options.axes.add(axis);
+    expect_same(program + "M30\nO9100\nG91\nG1 Z#1\nX1.\nG90\nM99\n", setting);
+  }
+}
+
+TEST(FastPaths, CallTheModalMacroBehindAPlainMove) {
+  SourceMap sources;
+  Setting setting;
+  setting.options.dialect = interp::Dialect::fanuc;
+  const Ran ran = run_program(
+      sources, "O1\nG66 P9100 A5.\nG0 X1.\nG67\nX2.\nM30\nO9100\nG0 Z#1\nM99\n", setting);
+  ASSERT_GE(ran.texts.size(), 3u);
+  EXPECT_EQ(ran.texts[0], "rapid X1 Y0 Z0");
+  EXPECT_EQ(ran.texts[1], "rapid X1 Y0 Z5");
+  EXPECT_EQ(ran.texts[2], "rapid X2 Y0 Z5");
 }
 
 }  // namespace

@@ -81,12 +81,17 @@ std::optional<AxisValues> named_target(BlockRun& run) {
   if (state.rotation == 0 && !state.frame.active() && !state.turn_was_left && !polar &&
       !state.polar.on) {
     AxisValues tip = start;
-    for (const Axis axis : all_axes) {
-      if (const auto by = run.increment(axis)) tip[axis] += *by;
-      const auto value = run.axis(axis);
-      if (!value) continue;
-      tip[axis] = state.incremental ? tip[axis] + *value
-                                    : *value + state.g92[axis] + state.work_offset[axis];
+    const bool lathe = run.session.table.lathe();
+    if (lathe)
+      for (const Axis axis : {Axis::x, Axis::y, Axis::z})
+        if (const auto by = run.increment(axis)) tip[axis] += *by;
+    for (const Word& word : run.block.words) {
+      if (!(letter_bit(word.letter) & axis_letters)) continue;
+      const Axis axis = *axis_of_letter(word.letter);
+      if (lathe && !run.is_axis(axis)) continue;
+      const double value = run.axis_number(word, axis);
+      tip[axis] =
+          state.incremental ? tip[axis] + value : value + state.g92[axis] + state.work_offset[axis];
     }
     return tip;
   }
