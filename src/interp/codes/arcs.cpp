@@ -199,7 +199,8 @@ void arc(const CodeRule& rule, BlockRun& run) {
   move.arc.normal = plane_normal(state);
   move.arc.turns = (rule.code == 30) != swaps_sides(state) ? turns : -turns;
   move.arc.plane = state.plane;
-  move.rate = note_inverse_time(run, canon::arc_way(state.programmed_tip(), move.arc));
+  if (state.feed_mode == canon::FeedMode::inverse_time)
+    move.rate = note_inverse_time(run, canon::arc_way(state.programmed_tip(), move.arc));
   make_move(run, rule, move);
 }
 

@@ -185,8 +185,10 @@ void linear_feed(const CodeRule& rule, BlockRun& run) {
     return line_by_angle(rule, run, *angle);
   const auto end = target_of(run);
   if (!end) return;
-  const double rate = note_inverse_time(run, canon::straight_way(run.state.programmed_tip(), *end));
-  make_move(run, rule, {PlannedMove::Kind::feed, *end, {}, rate});
+  PlannedMove move{PlannedMove::Kind::feed, *end, {}};
+  if (run.state.feed_mode == canon::FeedMode::inverse_time)
+    move.rate = note_inverse_time(run, canon::straight_way(run.state.programmed_tip(), *end));
+  make_move(run, rule, move);
 }
 
 void cancel_motion(const CodeRule&, BlockRun&) {}
