@@ -47,7 +47,12 @@ const std::vector<KindText>& general_kinds() {
 std::vector<KindText> all_kinds() {
   std::vector<KindText> out = general_kinds();
   const auto add = [&](const std::vector<KindText>& kinds) {
-    out.insert(out.end(), kinds.begin(), kinds.end());
+    for (const KindText& row :
+         kinds)  // one kind may come from two libraries; the first explains it
+      if (std::none_of(out.begin(), out.end(), [&](const KindText& other) {
+            return std::string_view(other.kind) == row.kind;
+          }))
+        out.push_back(row);
   };
   add(interp::error_kinds());
   add(ini::kinds());

@@ -230,7 +230,10 @@ int run_command(const RunArguments& a) {
   }
   for (const Diagnostics* list : {&diagnostics, &doubts})
     for (const Diagnostic& d : list->list())
-      if (checks.semantics || !semantics::is_semantic(d.kind)) report.diagnostics.push_back(d);
+      if (d.kind == "spindle_stopped_cut" && result.summary.stock)
+        continue;  // the cut check knows better: it has looked whether there is material
+      else if (checks.semantics || !semantics::is_semantic(d.kind))
+        report.diagnostics.push_back(d);
   report.findings = std::move(result.findings);
   report.folder = working_folder();
   if (interpreter.statistics().limit_reached || result.summary.limit_reached)

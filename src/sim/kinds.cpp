@@ -65,7 +65,10 @@ const std::vector<KindText>& finding_kinds() {
        "Remedy: retract to a clear height first, raise the cycle's R plane, or correct the work\n"
        "offset or the tool's length offset (G43 H)."},
       {"spindle_stopped_cut", "the cutter takes material while the spindle stands",
-       "A feed move takes material with the spindle off, or with S0.\n"
+       "A feed move takes material with the spindle off, or with S0. Without stock nobody knows\n"
+       "whether a move at the feed cuts: then this is a warning at the first one after M5, M6 or "
+       "the\n"
+       "start, and a tool with which the program probes (G38) is not told about.\n"
        "Remedy: M3 and S before the move; look for an M5 or a tool change before it."},
       {"spindle_direction_cut", "the cutter takes material while it turns backwards",
        "The spindle turns against the tool's cutting direction: M4 with a right-hand tool, M3 with "

@@ -212,8 +212,8 @@ class Observer {
 struct CheckOptions {
   bool limits = true;
   bool collision = true;
-  bool cut = true;           ///< the cutter against the stock
-  bool keep_cuts = false;    ///< for stock_history()
+  bool cut = true;             ///< the cutter against the stock
+  bool keep_cuts = false;      ///< for stock_history()
   double near = 2;             ///< mm; 0 = near misses are not looked for
   double touch = 0.001;        ///< ε_c, mm
   std::size_t detailed = 100;  ///< collisions whose depth is worked out; the others have none
@@ -263,6 +263,7 @@ class Simulator {
  private:
   void count(const plan::Segment& segment);
   void user_code(const Step& step, const canon::UserCode& code);
+  void feed_without_tool(const Step& step);
 
   Scene scene_;
   JointVector joints_;
@@ -272,6 +273,7 @@ class Simulator {
   Findings findings_;
   Summary summary_;
   bool stopped_ = false;
+  bool told_no_tool_ = false;
 };
 
 struct RunOptions {

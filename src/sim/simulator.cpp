@@ -55,6 +55,7 @@ void Simulator::step(const plan::Segment& segment) {
     stopped_ = true;
     return;
   }
+  feed_without_tool(step);
   int tool = -1;
   if (const auto* change = std::get_if<canon::ChangeTool>(&segment.command.action))
     tool = change->number;
@@ -103,6 +104,21 @@ void Simulator::step(const plan::Segment& segment) {
   }
   if (const auto* code = std::get_if<canon::UserCode>(&segment.command.action))
     user_code(step, *code);
+}
+
+// Feed moves with a turning spindle and no tool: some control may have one in it that the program
+// does not name, and nothing of that tool is checked.
+void Simulator::feed_without_tool(const Step& step) {
+  const plan::Segment& segment = step.segment;
+  const bool feeds =
+      segment.kind == plan::MotionKind::feed || segment.kind == plan::MotionKind::arc;
+  if (told_no_tool_ || !feeds || segment.spindle_rpm == 0 || scene_.loaded_tool() != 0) return;
+  told_no_tool_ = true;
+  Finding f = finding_at(Kind::not_checked, step, segment.t_start);
+  f.message = "the spindle turns and the program feeds, but no tool is in the spindle";
+  f.remedy = "load one (T, M6) before; nothing of the tool that is meant was checked";
+  f.makes_unknown = true;
+  findings_.add(f);
 }
 
 void Simulator::user_code(const Step& step, const canon::UserCode& code) {

@@ -1,0 +1,345 @@
+// Seeded faults: a clean job is spoiled in one place at a time, in the ways that people spoil them,
+// and every fault must be found at its line. The clean job gives no error and no warning.
+//
+// The job is programs/bracket.ngc with its block; AIRCUT_MUTANTS=all tries every fault, otherwise
+// a few that are quick.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace aircut {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string read(const fs::path& path) {
+  std::ifstream in(path);
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  if (at != std::string::npos) text.replace(at, from.size(), to);
+  return text;
+}
+
+// What is run: texts that a fault changes.
+struct Job {
+  std::string program, setup, tools;
+};
+
+// A fault and where it must show.
+struct Mutant {
+  std::string kind;  ///< of fault, for people
+  Job job;
+  std::string file;               ///< end of the name that the message begins with
+  std::size_t low = 0, high = 0;  ///< its lines
+  std::vector<std::string> kinds;
+  bool quick = true;  ///< few contacts: their depths take time
+};
+
+class SeededFaults : public ::testing::Test {
+ protected:
+  SeededFaults() {
+    const fs::path source(AIRCUT_SOURCE_DIR);
+    clean_ = {read(source / "programs/bracket.ngc"),
+              read(source / "programs/mill3-block.setup.toml"),
+              read(source / "machines/mill3/tools.toml")};
+    program_ = lines_of(clean_.program);
+    std::string name = (fs::temp_directory_path() / "aircut-mutants-XXXXXX").string();
+    folder_ = ::mkdtemp(name.data());
+    fs::create_directory(folder_ / "holders");
+    for (const auto& entry : fs::directory_iterator(source / "machines/mill3/holders"))
+      fs::copy(entry.path(), folder_ / "holders");
+  }
+  ~SeededFaults() override { fs::remove_all(folder_); }
+
+  // The messages, one per line.
+  std::vector<std::string> messages(const Job& job) const {
+    std::ofstream(folder_ / "job.ngc") << job.program;
+    std::ofstream(folder_ / "job.setup.toml") << job.setup;
+    std::ofstream(folder_ / "tools.toml") << job.tools;
+    const std::string command =
+        "cd " + folder_.string() +
+        " && timeout 120 " AIRCUT_BINARY_DIR "/bin/aircut run job.ngc -m " +
+        AIRCUT_SOURCE_DIR "/machines/mill3 --setup job.setup.toml -t tools.toml --format gcc 2>&1";
+    std::string out;
+    if (std::FILE* pipe = ::popen(command.c_str(), "r")) {
+      std::array<char, 4096> buffer;
+      for (std::size_t n; (n = std::fread(buffer.data(), 1, buffer.size(), pipe)) > 0;)
+        out.append(buffer.data(), n);
+      ::pclose(pipe);
+    }
+    return lines_of(out);
+  }
+
+  static bool found(const Mutant& mutant, const std::vector<std::string>& messages) {
+    for (const std::string& message : messages) {
+      if (message.find(": error: ") == std::string::npos &&
+          message.find(": warning: ") == std::string::npos)
+        continue;
+      const std::string start = mutant.file + ":";
+      if (!message.starts_with(start)) continue;
+      const std::size_t line = std::strtoul(message.c_str() + start.size(), nullptr, 10);
+      if (line < mutant.low || line > mutant.high) continue;
+      for (const std::string& kind : mutant.kinds)
+        if (message.ends_with("[" + kind + "]")) return true;
+    }
+    return false;
+  }
+
+  // The program with one line changed; lines count from 1.
+  Job with_line(std::size_t line, const std::string& text) const {
+    Job job = clean_;
+    job.program.clear();
+    for (std::size_t i = 0; i < program_.size(); ++i)
+      job.program += (i + 1 == line ? text : program_[i]) + "\n";
+    return job;
+  }
+
+  // Lines that begin with this, from the header on.
+  std::vector<std::size_t> lines_with(const std::string& start) const {
+    std::vector<std::size_t> out;
+    for (std::size_t i = 8; i < program_.size(); ++i)
+      if (program_[i].starts_with(start)) out.push_back(i + 1);
+    EXPECT_FALSE(out.empty()) << start;
+    return out;
+  }
+  std::size_t next(std::size_t line, const std::string& text) const {
+    for (std::size_t i = line; i < program_.size(); ++i)
+      if (program_[i].find(text) != std::string::npos) return i + 1;
+    return program_.size();
+  }
+
+  void feed_becomes_rapid(std::vector<Mutant>& out) const;
+  void spindle(std::vector<Mutant>& out) const;
+  void lengths(std::vector<Mutant>& out) const;
+  void changes(std::vector<Mutant>& out) const;
+  void clearances(std::vector<Mutant>& out) const;
+  void set_up(std::vector<Mutant>& out) const;
+
+  Job clean_;
+  std::vector<std::string> program_;
+  fs::path folder_;
+};
+
+// G0 in place of G1 on lines that take material.
+void SeededFaults::feed_becomes_rapid(std::vector<Mutant>& out) const {
+  for (const char* text :
+       {"G1 X62 F1100", "  G1 Y-29", "  G1 X-49", "  G1 Y29", "  G1 X15 Z", "    G1 X[10 +",
+        "    G1 Y#<step>", "    G1 X[-10", "G1 Y14", "G1 X-24", "G1 Y-14", "G1 X24"}) {
+    const std::size_t line = next(8, text);
+    out.push_back({"feed becomes rapid",
+                   with_line(line, replaced(program_[line - 1], "G1", "G0")),
+                   "job.ngc",
+                   line,
+                   line,
+                   {"rapid_cut"}});
+  }
+}
+
+// No M3, M4 in place of M3, S0.
+void SeededFaults::spindle(std::vector<Mutant>& out) const {
+  for (const std::size_t line : lines_with("S")) {
+    const std::size_t end = next(line, "M6");
+    const auto add = [&](const char* what, const std::string& text, const char* kind) {
+      out.push_back({what, with_line(line, text), "job.ngc", line, end, {kind}});
+    };
+    add("no M3", replaced(program_[line - 1], " M3", ""), "spindle_stopped_cut");
+    add("M4", replaced(program_[line - 1], "M3", "M4"), "spindle_direction_cut");
+  }
+}
+
+// Each H in place of each other one, and none.
+void SeededFaults::lengths(std::vector<Mutant>& out) const {
+  for (const std::size_t line : lines_with("G43 H")) {
+    for (const char* h : {"1", "2", "4", "5", "6", "8"}) {
+      const std::string text = std::string("G43 H") + h;
+      if (program_[line - 1] != text)
+        out.push_back({"wrong H", with_line(line, text), "job.ngc", line, line, {"wrong_offset"}});
+    }
+    // T8 is as long as T2 before it: nothing goes wrong there.
+    if (program_[line - 1] == "G43 H8") continue;
+    out.push_back(
+        {"no G43",
+         with_line(line, ""),
+         "job.ngc",
+         line,
+         next(line, "M6"),
+         {"length_offset_missing", "wrong_offset", "rapid_cut", "collision", "overtravel"}});
+  }
+}
+
+// A tool change that is missing: the tool before it goes on.
+void SeededFaults::changes(std::vector<Mutant>& out) const {
+  for (const std::size_t line : lines_with("T"))
+    out.push_back(
+        {"no tool change",
+         with_line(line, ""),
+         "job.ngc",
+         line,
+         next(line + 1, "M6"),
+         {"wrong_offset", "no_tool_cut", "length_offset_missing", "rapid_cut", "not_checked"}});
+}
+
+// R planes and retracts below the face, a plane and a unit that are wrong, a hole through the vise.
+void SeededFaults::clearances(std::vector<Mutant>& out) const {
+  for (const char* cycle : {"G99 G81", "G98 G83"}) {
+    const std::size_t line = next(8, cycle);
+    // The drill's tip has room in the spot that was drilled before, down to Z-2.
+    for (const char* r : {"R-3", "R-3.5", "R-4"})
+      out.push_back({"R below the face",
+                     with_line(line, replaced(program_[line - 1], "R2", r)),
+                     "job.ngc",
+                     line,
+                     line,
+                     {"rapid_cut"}});
+  }
+  const std::size_t above = next(54, "G0 Z2");
+  for (const char* z : {"G0 Z-2", "G0 Z-3", "G0 Z-8"})
+    out.push_back(
+        {"approach below the face", with_line(above, z), "job.ngc", above, above, {"rapid_cut"}});
+  const std::size_t finish = next(80, "G0 Z-8");
+  for (const char* z : {"G0 Z-11", "G0 Z-12", "G0 Z-15"})
+    out.push_back({"approach below the floor",
+                   with_line(finish, z),
+                   "job.ngc",
+                   finish,
+                   finish,
+                   {"rapid_cut"}});
+  const std::size_t drill = next(8, "G98 G83");
+  for (const char* z : {"Z-90", "Z-100", "Z-110"})
+    out.push_back({"drilled into the vise",
+                   with_line(drill, replaced(program_[drill - 1], "Z-26", z)),
+                   "job.ngc",
+                   drill,
+                   drill + 3,
+                   {"collision", "overtravel"}});
+  const std::size_t retract = next(47, "G0 Z20");
+  out.push_back({"missing retract",
+                 with_line(retract, "  G0 X60 Y-20"),
+                 "job.ngc",
+                 retract,
+                 retract,
+                 {"rapid_cut"}});
+  const std::size_t pocket = next(75, "G0 Z20");
+  for (const char* xy : {"G0 X40 Y0", "G0 X-40 Y10", "G0 X0 Y35", "G0 X10 Y-30"})
+    out.push_back(
+        {"missing retract", with_line(pocket, xy), "job.ngc", pocket, pocket, {"rapid_cut"}});
+  const std::size_t head = next(0, "G17 G21");
+  out.push_back({"wrong plane",
+                 with_line(head, replaced(program_[head - 1], "G17", "G18")),
+                 "job.ngc",
+                 20,
+                 20,
+                 {"arc_error", "missing_word", "word_conflict", "unused_word"}});
+  out.push_back({"wrong unit",
+                 with_line(head, replaced(program_[head - 1], "G21", "G20")),
+                 "job.ngc",
+                 12,
+                 20,
+                 {"overtravel"}});
+}
+
+// Work offsets, a block that is too high, a clamp that stands elsewhere, tools that are longer than
+// the table says.
+void SeededFaults::set_up(std::vector<Mutant>& out) const {
+  const auto setup = [&](const std::string& kind, const std::string& text, std::size_t low,
+                         std::size_t high, std::vector<std::string> kinds) {
+    Job job = clean_;
+    job.setup += text;
+    out.push_back({kind, job, "job.ngc", low, high, std::move(kinds)});
+  };
+  // Less than that goes as deep into the block without anything being wrong but the part.
+  for (const int down : {6, 7, 8, 9, 10, 12, 15})
+    setup("work offset too low",
+          "[offsets]\nG54 = [0.0, 35.0, " + std::to_string(-424 - down) + ".0]\n", 10, 60,
+          {"rapid_cut", "collision", "near_miss"});
+  for (const char* offset :
+       {"[0.0, 65.0, -424.0]", "[0.0, 5.0, -424.0]", "[0.0, 75.0, -424.0]", "[0.0, -5.0, -424.0]"})
+    setup("work offset beside", "[offsets]\nG54 = " + std::string(offset) + "\n", 10, 130,
+          {"rapid_cut", "collision"});
+  for (const int up : {9, 12, 15, 18, 21}) {
+    Job job = clean_;
+    job.setup = replaced(job.setup, "fixture = \"vise\"\nplace = [0.0, -40.0, 76.0]",
+                         "place = [0.0, 35.0, -474.0]");
+    job.setup +=
+        "[[fixture]]\nname = \"vise\"\nplace = [0.0, 75.0, " + std::to_string(-550 + up) + ".0]\n";
+    out.push_back({"clamp too high", job, "job.ngc", 10, 60, {"collision", "near_miss"}});
+  }
+  for (const int higher : {10, 12, 16, 24}) {
+    Job job = clean_;
+    job.setup = replaced(job.setup, "79.8, 50.0]", "79.8, " + std::to_string(50 + higher) + ".0]");
+    out.push_back({"block too high", job, "job.ngc", 10, 60, {"rapid_cut", "collision"}});
+  }
+  struct Length {
+    const char* stick_out;
+    double gauge;
+  };
+  for (const auto& [stick_out, gauge] :
+       {Length{"36.0", 96}, Length{"30.0", 90}, Length{"74.0", 134},
+        Length{"40.0\nholder = \"bt30-fma", 75}})
+    for (const int longer : {1, 2, 5, 10}) {
+      Job job = clean_;
+      const std::string from = std::string("stick_out = ") + stick_out;
+      const double length = std::strtod(stick_out, nullptr) + longer;
+      std::string to = from;
+      to.replace(12, 4, std::to_string(length));
+      job.tools =
+          replaced(job.tools, from, "offset = { z = " + std::to_string(gauge) + " }\n" + to);
+      out.push_back(
+          {"longer tool", job, "tools.toml", 1, 200, {"tools_invalid", "length_mismatch"}});
+    }
+}
+
+TEST_F(SeededFaults, AreFoundAtTheirLines) {
+  for (const std::string& message : messages(clean_))
+    EXPECT_EQ(message.find(": error: "), std::string::npos) << message;
+  std::vector<Mutant> all;
+  feed_becomes_rapid(all);
+  spindle(all);
+  const std::size_t quick = all.size();
+  lengths(all);
+  changes(all);
+  clearances(all);
+  set_up(all);
+  for (std::size_t i = quick; i < all.size(); ++i) all[i].quick = false;
+  const bool every = std::getenv("AIRCUT_MUTANTS") != nullptr;
+  std::string last;
+  int tried = 0;
+  for (const Mutant& mutant : all) {
+    if (!every && (mutant.kind == last || !mutant.quick)) continue;
+    last = mutant.kind;
+    ++tried;
+    const auto said = messages(mutant.job);
+    std::string text;
+    for (std::size_t i = 0; i < said.size() && i < 8; ++i) text += said[i] + "\n";
+    EXPECT_TRUE(found(mutant, said)) << mutant.kind << ", expected at " << mutant.file << ":"
+                                     << mutant.low << "-" << mutant.high << "\n"
+                                     << text;
+  }
+  RecordProperty("mutants", tried);
+  std::printf("%d mutants of %zu\n", tried, all.size());
+}
+
+}  // namespace
+}  // namespace aircut
