@@ -46,6 +46,7 @@ struct Path {
   double step;  // mm per move
   double p, q;  // G64
   double feed = 50;
+  double turn = 0;  // of A, B and C, rad per mm
 };
 
 // A wave of short moves back and forth, as CAM systems write them.
@@ -56,14 +57,18 @@ void wave(const Path& path, int moves, const AxisValues& middle, Push push) {
   push(canon::SetFeedRate{path.feed, 0});
   for (int i = 1; i <= moves; ++i) {
     const double a = i * path.step / 20;
-    push(canon::LinearFeed{middle + xyz(20 * std::sin(a), 10 * std::cos(a), 3 * std::sin(3 * a))});
+    AxisValues tip = middle + xyz(20 * std::sin(a), 10 * std::cos(a), 3 * std::sin(3 * a));
+    for (const Axis axis : {Axis::a, Axis::b, Axis::c})
+      tip[axis] += 20 * path.turn * std::sin((1 + static_cast<double>(index(axis))) * a / 3);
+    push(canon::LinearFeed{tip});
   }
 }
 
 void plan(benchmark::State& state, const machine::Machine& machine, const AxisValues& middle,
           const Path& path) {
   const auto moves = static_cast<int>(state.range(0));
-  const auto start = machine.kinematics().inverse({middle, {}}, machine::JointVector::Zero(3));
+  const auto start =
+      machine.kinematics().inverse({middle, {}}, machine::JointVector::Zero(machine.joint_count()));
   double seconds = 0;
   for (auto _ : state) {
     plan::Planner planner(machine, *start, {});
@@ -94,6 +99,25 @@ void ox_short_lines(benchmark::State& state) {
   plan(state, ox_glide(), xyz(250, 0, -310), {0.05, 0.01, 0});
 }
 
+// Six joints that all move, each with a jerk limit.
+machine::Machine six_joints() {
+  machine::Machine m;
+  for (const char* name : {"X", "Y", "Z", "A", "B", "C"}) {
+    add_joint(m, name);
+    m.tree_.back().jmax = 30000;
+  }
+  m.kinematics_ = machine::make_identity({Axis::x, Axis::y, Axis::z, Axis::a, Axis::b, Axis::c});
+  return m;
+}
+void six_joints_jerk(benchmark::State& state) {
+  plan(state, six_joints(), {}, {.step = 1, .p = 0.02, .q = 0, .turn = 0.02});
+}
+void six_joints_jerk_short(benchmark::State& state) {
+  plan(state, six_joints(), {}, {.step = 0.05, .p = 0.01, .q = 0, .turn = 0.02});
+}
+
+BENCHMARK(six_joints_jerk)->Arg(2000)->Unit(benchmark::kMillisecond);
+BENCHMARK(six_joints_jerk_short)->Arg(20000)->Unit(benchmark::kMillisecond);
 BENCHMARK(mill_lines)->Arg(10000)->Unit(benchmark::kMillisecond);
 BENCHMARK(mill_short_lines)->Arg(10000)->Arg(100000)->Unit(benchmark::kMillisecond);
 BENCHMARK(mill_merged)->Arg(100000)->Unit(benchmark::kMillisecond);

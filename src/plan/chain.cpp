@@ -37,9 +37,10 @@ double entry_speed(const Piece& piece, const Controllable& controllable) {
 
 }  // namespace
 
-Chain::Chain(std::size_t max_nodes, const JointLimits& limits, double period)
+Chain::Chain(std::size_t max_nodes, const machine::Kinematics& kinematics,
+             const JointLimits& limits, const machine::JointVector& start, double period)
     : max_nodes_(max_nodes) {
-  if (limits.has_jerk()) jerk_.emplace(limits, limits.j.cwiseQuotient(limits.a), period);
+  if (limits.has_jerk()) jerk_.emplace(kinematics, limits, start, period);
 }
 
 void Chain::push(Piece piece) {

@@ -20,7 +20,9 @@ struct Piece {
 class Chain {
  public:
   /// The window is emitted piecewise when it holds more than this many nodes.
-  Chain(std::size_t max_nodes, const JointLimits& limits, double period);
+  /// `start`: joints at program time 0. The kinematics must outlive the chain.
+  Chain(std::size_t max_nodes, const machine::Kinematics& kinematics, const JointLimits& limits,
+        const machine::JointVector& start, double period);
 
   void push(Piece piece);
   /// A segment that takes no way: it comes out after the piece before it. One that takes time needs

@@ -23,11 +23,14 @@
 #include <cmath>
 #include <limits>
 
+#include "plan/five_diagonals.h"
+
 namespace aircut::plan {
 namespace {
 
 using Vector = std::vector<double>;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_rounds = 80;
 constexpr double relative_gap = 1e-4;
 constexpr double small_violation = 1e-7;
@@ -37,46 +40,6 @@ struct Rows {
   Vector s_plus, s_minus, m_plus, m_minus;
   void resize(std::size_t n) {
     for (Vector* v : {&s_plus, &s_minus, &m_plus, &m_minus}) v->assign(n, 0);
-  }
-};
-
-// A symmetric matrix with five diagonals; solve() by LDLᵀ.
-struct Bands {
-  Vector d0, d1, d2;
-  void clear(std::size_t n) {
-    for (Vector* v : {&d0, &d1, &d2}) v->assign(n, 0);
-  }
-  void pin(std::size_t i) {
-    d0[i] = 1;
-    d1[i] = d2[i] = 0;
-    if (i >= 1) d1[i - 1] = 0;
-    if (i >= 2) d2[i - 2] = 0;
-  }
-  void solve(Vector& rhs) {
-    const std::size_t n = d0.size();
-    for (std::size_t i = 0; i < n; ++i) {
-      double pivot = d0[i], off1 = i + 1 < n ? d1[i] : 0;
-      const double off2 = i + 2 < n ? d2[i] : 0;
-      pivot = std::max(pivot, 1e-300);
-      const double l1 = off1 / pivot, l2 = off2 / pivot;
-      if (i + 1 < n) {
-        d0[i + 1] -= l1 * off1;
-        d1[i + 1] -= l1 * off2;
-        rhs[i + 1] -= l1 * rhs[i];
-      }
-      if (i + 2 < n) {
-        d0[i + 2] -= l2 * off2;
-        rhs[i + 2] -= l2 * rhs[i];
-      }
-      d0[i] = pivot;
-      d1[i] = l1;
-      d2[i] = l2;
-    }
-    for (std::size_t i = n; i-- > 0;) {
-      rhs[i] /= d0[i];
-      if (i + 1 < n) rhs[i] -= d1[i] * rhs[i + 1];
-      if (i + 2 < n) rhs[i] -= d2[i] * rhs[i + 2];
-    }
   }
 };
 
@@ -115,7 +78,7 @@ class Solver {
   std::size_t count_ = 0;
   std::vector<Rows> acceleration_, jerk_;
   Vector cap_slack_, cap_multiplier_;
-  Bands matrix_;
+  FiveDiagonals matrix_;
   Vector step_;
   // Scratch of one joint's rows: weight, difference of weights, force.
   Vector weight_, skew_, push_, pull_;
@@ -380,6 +343,7 @@ JerkSolution Solver::run() {
   for (out.rounds = 0; out.rounds < most_rounds; ++out.rounds) {
     times();
     residuals(false);
+    if (!std::isfinite(product_)) return {problem_.guess, infinity, out.rounds};
     if (out.rounds > 0 && product_ < relative_gap * objective_ && violation_ < small_violation)
       break;
     const double mu = centring * product_ / static_cast<double>(count_);
@@ -393,7 +357,7 @@ JerkSolution Solver::run() {
     times();
     residuals(false);
   }
-  out.violation = violation_;
+  out.violation = std::isfinite(objective_) ? violation_ : infinity;
   out.b = std::move(b_);
   return out;
 }

@@ -152,7 +152,9 @@ struct Segment {
   double u0 = 0, u1 = 1;
   LimitedBy limited_by = LimitedBy::none;  ///< what held the speed longest
   std::optional<Sync> sync;                ///< of synchronised motion
-  std::string sync_problem;        ///< why the axis can't keep to the spindle; empty = it can
+  std::string sync_problem;  ///< why the axis can't keep to the spindle; empty = it can
+  /// Why a joint passes its limit of acceleration or jerk here; empty = none does.
+  std::string limit_problem;
   std::optional<Failure> failure;  ///< the run ends here
 
   double duration() const { return profile.duration(); }

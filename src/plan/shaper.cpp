@@ -60,7 +60,7 @@ Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, doub
     : machine_(machine),
       limits_(limits_of(machine)),
       period_(period),
-      chain_(max_nodes, limits_, period),
+      chain_(max_nodes, machine.kinematics(), limits_, start, period),
       joints_(std::move(start)),
       scratch_(std::max(machine.tree().size(), static_cast<std::size_t>(machine.joint_count()) +
                                                    machine.kinematics().passive_names().size())) {}

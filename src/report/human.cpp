@@ -67,6 +67,7 @@ std::string underline_remark(const sim::Finding& f) {
     case sim::Kind::tool_change_collision:
     case sim::Kind::sync_limit:
     case sim::Kind::air_cut:
+    case sim::Kind::dynamics_limit:
     case sim::Kind::tool_missing:
     case sim::Kind::not_executed:
     case sim::Kind::not_checked:

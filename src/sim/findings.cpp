@@ -29,6 +29,7 @@ constexpr KindRow kinds[] = {
     {Kind::no_tool_cut, "no_tool_cut", Severity::error},
     {Kind::plunge_not_center_cutting, "plunge_not_center_cutting", Severity::error},
     {Kind::air_cut, "air_cut", Severity::info},
+    {Kind::dynamics_limit, "dynamics_limit", Severity::error},
     {Kind::tool_missing, "tool_missing", Severity::error},
     {Kind::not_executed, "not_executed", Severity::warning},
     {Kind::not_checked, "not_checked", Severity::warning},

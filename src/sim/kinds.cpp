@@ -88,6 +88,13 @@ const std::vector<KindText>& finding_kinds() {
       {"air_cut", "a long feed move takes nothing",
        "A feed move of more than 20 mm removes no material: time is lost, or something stands\n"
        "elsewhere than the program thinks (work offset, length offset, stock)."},
+      {"dynamics_limit", "a joint's acceleration or jerk limit is passed",
+       "The planner looks at every sample that the joint log will hold. Where a limit is passed it "
+       "plans\n"
+       "again with less, at last from rest to rest and as slowly as it takes, so this should never "
+       "be\n"
+       "seen. It is told rather than hidden.\n"
+       "Remedy: a lower feed; and please report it."},
       {"tool_missing", "a tool is changed in that is not in the tool table",
        "The tool number of M6 or M61 has no entry in the tool file, so its shape and length are "
        "unknown.\n"

@@ -73,6 +73,7 @@ enum class Kind : unsigned char {
   no_tool_cut,
   plunge_not_center_cutting,
   air_cut,
+  dynamics_limit,
   tool_missing,
   not_executed,
   not_checked,

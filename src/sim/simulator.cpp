@@ -102,6 +102,12 @@ void Simulator::step(const plan::Segment& segment) {
     f.remedy = "use a lower spindle speed, or begin farther away";
     findings_.add(f);
   }
+  if (!segment.limit_problem.empty()) {
+    Finding f = finding_at(Kind::dynamics_limit, step, segment.t_start);
+    f.message = segment.limit_problem;
+    f.remedy = "report this with the program and the machine; a lower feed may avoid it";
+    findings_.add(f);
+  }
   if (const auto* code = std::get_if<canon::UserCode>(&segment.command.action))
     user_code(step, *code);
 }

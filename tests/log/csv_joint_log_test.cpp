@@ -122,11 +122,17 @@ std::shared_ptr<machine::Machine> with_jerk(std::shared_ptr<machine::Machine> ma
   return machine;
 }
 
+// For a long search: AIRCUT_TEST_PROGRAMS programs a test, from AIRCUT_TEST_SEED on.
+int number_from(const char* name, int otherwise) {
+  const char* text = std::getenv(name);
+  return text ? std::atoi(text) : otherwise;
+}
+unsigned seed_of(int i) { return static_cast<unsigned>(number_from("AIRCUT_TEST_SEED", 0) + i); }
+
 TEST(JointLog, KeepsTheJerkLimitOfRandomProgramsOnAMill) {
-  const char* many = std::getenv("AIRCUT_TEST_PROGRAMS");
-  const int programs = many ? std::atoi(many) : 4;
+  const int programs = number_from("AIRCUT_TEST_PROGRAMS", 4);
   for (int i = 0; i < programs; ++i) {
-    std::mt19937 random(200 + static_cast<unsigned>(i));
+    std::mt19937 random(200 + seed_of(i));
     const double seconds = std::array{0.05, 0.02, 0.2}[random() % 3];
     Case c{with_jerk(mill(), seconds), {}, {}, 0, false};
     add_random_program(c, random, i, i % 3 == 0 ? 2 : 25, Vec3::Zero());
@@ -135,21 +141,30 @@ TEST(JointLog, KeepsTheJerkLimitOfRandomProgramsOnAMill) {
 }
 
 TEST(JointLog, KeepsTheJerkLimitOfRandomProgramsOnAnOxGlide) {
-  const char* many = std::getenv("AIRCUT_TEST_PROGRAMS");
-  const int programs = many ? std::atoi(many) : 2;
+  const int programs = number_from("AIRCUT_TEST_PROGRAMS", 2);
   for (int i = 0; i < programs; ++i) {
-    std::mt19937 random(300 + static_cast<unsigned>(i));
+    std::mt19937 random(300 + seed_of(i));
     Case c{with_jerk(ox_machine({60, 600}), 0.05), xyz(250, 0, -320), {}, 0, true};
     add_random_program(c, random, i, i % 3 == 0 ? 4 : 20, Vec3(250, 0, -320));
     expect_good(c, "O-X program with jerk " + std::to_string(i));
   }
 }
 
+TEST(JointLog, KeepsJerkLimitsOfAnySize) {
+  const std::array seconds = {1e-4, 2e-3, 1.0, 20.0};  // from rest to the acceleration limit
+  for (int i = 0; i < number_from("AIRCUT_TEST_PROGRAMS", 4); ++i) {
+    std::mt19937 random(400 + seed_of(i));
+    Case c{with_jerk(mill(), seconds[static_cast<std::size_t>(i) % 4]), {}, {}, 0, false};
+    c.busy = 0.3;
+    add_random_program(c, random, i / 4, 2, Vec3::Zero());
+    expect_good(c, "program with a jerk limit of any size " + std::to_string(i));
+  }
+}
+
 TEST(JointLog, KeepsLimitsWithTinyMovesAndTolerances) {
-  const char* many = std::getenv("AIRCUT_TEST_PROGRAMS");  // for a long search
-  const int programs = many ? std::atoi(many) : 12;
+  const int programs = number_from("AIRCUT_TEST_PROGRAMS", 12);
   for (int i = 0; i < programs; ++i) {
-    std::mt19937 random(100 + static_cast<unsigned>(i));
+    std::mt19937 random(100 + seed_of(i));
     std::uniform_real_distribution<double> uniform(-1, 1);
     const bool ox = i % 2 == 1;
     auto machine = ox ? ox_machine({60, 600}) : mill();

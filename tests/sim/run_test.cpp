@@ -38,6 +38,20 @@ TEST(Run, TakesTheMachinesWordForUserCodes) {
   EXPECT_EQ(r.verdict, Verdict::pass);
 }
 
+TEST(Run, FailsWhereThePlannerCouldNotKeepALimit) {
+  BoxMachine box;
+  const auto machine = box.machine();
+  Simulator simulator(machine, {}, machine->home(), {});
+  simulator.start();
+  plan::Segment segment;
+  segment.limit_problem = "no time law was found here";
+  simulator.step(segment);
+  const auto result = simulator.finish();
+  ASSERT_EQ(result.findings.size(), 1u);
+  EXPECT_EQ(result.findings[0].kind, Kind::dynamics_limit);
+  EXPECT_EQ(judge(result.findings, result.summary, {}, Severity::error), Verdict::fail);
+}
+
 TEST(Run, IsUnknownWhenAnInputIsRead) {
   BoxMachine box;
   const RunResult r =
