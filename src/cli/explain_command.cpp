@@ -32,6 +32,13 @@ const std::vector<KindText>& general_kinds() {
        "A key is unknown, a value has the wrong type or range, or the chain of joints does not fit "
        "the\n"
        "kinematics. The message has line and column; docs/machine-package.md lists all keys."},
+      {"mesh_defect", "a mesh that is open, inside out or empty",
+       "Warning. Only contact with the surface of such a body is found, not what lies inside it.\n"
+       "Close the mesh, or describe the body by boxes and cylinders."},
+      {"model_suspect", "a machine that is probably described wrongly",
+       "A body has the size of another unit, a link has no body, no body is the spindle, or a "
+       "speed\n"
+       "or time is missing, so that it can't be checked. docs/machine-package.md has the keys."},
       {"mesh_invalid", "a mesh can't be used",
        "The file is missing, broken, empty or too large, or lies outside the package."},
       {"setup_invalid", "setup.toml is wrong",

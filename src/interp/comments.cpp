@@ -1,6 +1,5 @@
 // Comments that do something: MSG, DEBUG, PRINT, LOG…, PROBE…, ABORT.
 #include <algorithm>
-#include <cmath>
 
 #include "base/text.h"
 #include "interp/dialect.h"
@@ -25,9 +24,10 @@ std::optional<std::string_view> behind(std::string_view text, std::string_view w
   return text.substr(word.size());
 }
 
+// The control writes numbers into 30 bytes, one of which ends the text.
 std::string format(double value, int decimals) {
-  if (std::fabs(value) > 1e15) return shortest(value);
-  return fixed(value, decimals);
+  std::string text = fixed(value, decimals);
+  return text.size() < 30 ? text : "######";
 }
 
 std::string_view trimmed(std::string_view text) {

@@ -17,6 +17,20 @@ namespace {
 constexpr double degree = std::numbers::pi / 180;
 // EQ NE GE LE compare within this absolute band, GT and LT do not (as the reference).
 constexpr const char* not_finite = "the result is not a finite number; keep it below 1e308";
+
+// The control counts in long double. That shows at whole quarter turns only: sin[180] and cos[90]
+// are not 0 there, and tan[90] is finite.
+bool is_quarter_turn(double degrees) { return degrees / 90 == std::floor(degrees / 90); }
+long double radians(double degrees) { return degrees * std::numbers::pi_v<long double> / 180; }
+double sine(double x) {
+  return is_quarter_turn(x) ? static_cast<double>(std::sin(radians(x))) : std::sin(x * degree);
+}
+double cosine(double x) {
+  return is_quarter_turn(x) ? static_cast<double>(std::cos(radians(x))) : std::cos(x * degree);
+}
+double tangent(double x) {
+  return is_quarter_turn(x) ? static_cast<double>(std::tan(radians(x))) : std::tan(x * degree);
+}
 constexpr double equality_band = 1e-4;
 
 struct Machine {
@@ -54,22 +68,22 @@ bool Machine::unary(const Instruction& at) {
   double& x = top();
   switch (at.op) {
     case Op::abs:
-      x = std::fabs(x);
+      if (x < 0) x = -x;  // as the control: -0 stays
       return true;
     case Op::tan:
-      x = std::tan(x * degree);
+      x = tangent(x);
       return true;
     case Op::exp:
       x = std::exp(x);
       return true;
     case Op::fix:
-      x = std::floor(x);
+      x = std::floor(x) + 0.0;  // the control makes integers of these, which have no -0
       return true;
     case Op::fup:
-      x = std::ceil(x);
+      x = std::ceil(x) + 0.0;
       return true;
     case Op::round:
-      x = std::round(x);
+      x = std::round(x) + 0.0;
       return true;
     case Op::acos:
     case Op::asin:
@@ -238,10 +252,10 @@ std::optional<double> evaluate(const Value& value, const Code& code, const Param
         top = -top;
         continue;
       case Op::cos:
-        top = std::cos(top * degree);
+        top = cosine(top);
         break;
       case Op::sin:
-        top = std::sin(top * degree);
+        top = sine(top);
         break;
       case Op::read:
         if (Parameters::always_readable(at->id)) {

@@ -59,6 +59,8 @@ class FlowIndex {
   int at(std::uint64_t begin) const;
   /// `oLABEL sub`, or -1.
   int find_sub(std::string_view label) const;
+  /// A sub whose label is an expression has this number from now on.
+  void name_sub(int at, std::string label) { subs_[std::move(label)] = at; }
   /// Fanuc-style `OLABEL` behind `after`, else anywhere, or -1.
   int find_fanuc(std::string_view label, std::uint64_t after) const;
 

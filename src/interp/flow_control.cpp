@@ -194,6 +194,7 @@ void Interpreter::Impl::enter_while(Block& block, int at) {
     return;
   }
   if (running) loops.pop_back();
+  continue_pending_ = false;
   // On its way to the end the control meets the loop's own breaks.
   for (int inside = at + 1; inside < entry(at).partner; ++inside)
     if (entry(inside).keyword == Keyword::break_ && entry(inside).partner == at)
@@ -218,7 +219,10 @@ void Interpreter::Impl::do_while(Block& block, int at) {
 void Interpreter::Impl::enter_repeat(Block& block, int at) {
   const auto value = condition(block);
   const double rounded = value ? std::nearbyint(*value) : 0;  // halves to the even number
-  if (rounded <= 0) return jump_behind(entry(entry(at).partner));
+  if (rounded <= 0) {
+    continue_pending_ = false;
+    return jump_behind(entry(entry(at).partner));
+  }
   Loop loop;
   loop.entry = at;
   loop.passes = rounded < 1e18 ? static_cast<std::uint64_t>(rounded)
@@ -234,7 +238,14 @@ void Interpreter::Impl::end_loop(Block& block, int at) {
     if (next_pass(*loop)) jump_to(entry(head));
     return;
   }
-  if (loop->pass >= loop->passes) return frames_.back().loops.pop_back();
+  if (loop->pass >= loop->passes) {
+    frames_.back().loops.pop_back();
+    if (!std::exchange(continue_pending_, false)) return;
+    warn(Fault{"control_fault", block.oword.place,
+               "the control runs this loop once more from its begin, because it has not forgotten "
+               "the continue of a do loop before it; use while instead of do"});
+    return jump_to(entry(head));
+  }
   if (next_pass(*loop)) jump_behind(entry(head));
 }
 
@@ -242,7 +253,10 @@ void Interpreter::Impl::leave_or_continue(Block& block, int at) {
   const int head = entry(at).partner;
   if (!loop_at(head)) return;
   const FlowEntry& end = entry(entry(head).partner);
-  if (block.oword.keyword == Keyword::continue_) return jump_to(end);
+  if (block.oword.keyword == Keyword::continue_) {
+    if (entry(head).keyword == Keyword::do_) continue_pending_ = true;
+    return jump_to(end);
+  }
   frames_.back().loops.pop_back();
   if (entry(head).keyword == Keyword::while_) break_pending_ = true;
   jump_behind(end);

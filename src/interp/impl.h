@@ -272,7 +272,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   double value_ = 0;  ///< #<_value>
   bool value_returned_ = false;
   bool percent_seen_ = false;
-  bool break_pending_ = false;  ///< a while loop was left by break: the next do loop runs once
+  bool continue_pending_ = false;  ///< a do loop was continued: the next repeat runs twice
+  bool break_pending_ = false;     ///< a while loop was left by break: the next do loop runs once
   std::uint64_t idle_blocks_ = 0;
   std::size_t cached_blocks_ = 0;
   std::vector<ModalMacro> modal_macros_;  ///< in force, the last G66 last

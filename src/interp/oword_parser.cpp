@@ -125,7 +125,10 @@ bool LineParser::oword_arguments() {
     default:
       break;
   }
-  while (in_.peek() == '[') {
+  while (true) {
+    while (oword.keyword == Keyword::call && in_.peek() == '(')
+      if (!comment()) return false;
+    if (in_.peek() != '[') break;
     const std::uint32_t begin = in_.position();
     Value argument;
     if (!value(argument)) return false;

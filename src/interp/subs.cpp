@@ -58,6 +58,8 @@ void Interpreter::Impl::pass_sub(Block& block, int at) {
            "the main program runs into a sub that it has called from before; end the main program "
            "with M2 before this line");
   sub.passed = true;
+  if (block.oword.computed)
+    if (auto label = label_of(block)) flow_of(*frames_.back().file).name_sub(at, std::move(*label));
   // A sub inside this one would come to light only in a call.
   for (int inside = at + 1; inside < sub.partner; ++inside) {
     const FlowEntry& other = entry(inside);

@@ -88,9 +88,12 @@ bool Thread::read_words() {
     taper_in_ = (*l & 1) != 0;
     taper_out_ = (*l & 2) != 0;
   }
-  if ((taper_in_ || taper_out_) && taper_ <= 0)
-    return fail("thread_error", run_.has('E') ? run_.place('E') : here,
-                "a taper (L) of G76 needs E above 0: its length");
+  if ((taper_in_ || taper_out_) && taper_ <= 0) {
+    run_.warning("word_ignored", run_.place('L'),
+                 "the control makes no taper (L) without E above 0, its length; add E or leave L "
+                 "out");
+    taper_in_ = taper_out_ = false;
+  }
   if (!(taper_in_ || taper_out_)) taper_ = 0;
   const auto spindle = spindle_of(run_, 0);
   if (!spindle) return false;
