@@ -15,7 +15,6 @@ namespace aircut::interp {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-// EQ NE GE LE compare within this absolute band, GT and LT do not (as the reference).
 constexpr const char* not_finite = "the result is not a finite number; keep it below 1e308";
 
 // The control counts in long double. That shows at whole quarter turns only: sin[180] and cos[90]
@@ -31,6 +30,7 @@ double cosine(double x) {
 double tangent(double x) {
   return is_quarter_turn(x) ? static_cast<double>(std::tan(radians(x))) : std::tan(x * degree);
 }
+// EQ and NE compare within this absolute band, the others do not (as the reference).
 constexpr double equality_band = 1e-4;
 
 struct Machine {
