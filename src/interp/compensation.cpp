@@ -224,6 +224,12 @@ std::optional<Compensator::Path> Compensator::entry_path(BlockRun& run, const Pl
   const Point outward = (1 / radius) * (to - centre);
   path.end_normal = (path.left_turn ? -side : side) * outward;
   path.end = to + r * path.end_normal;
+  if (r < same_point) {  // a full circle too
+    path.centre = centre;
+    path.radius = radius;
+    path.sweep = sweep_of(path);
+    return path;
+  }
   // Tangent at its end: the new centre lies on the normal there, as far from the start as from the
   // end. With d = start − end and u the unit vector from the end to the old centre:
   // |d − t·u| = t, so t = d² / (2 d·u).
@@ -314,7 +320,11 @@ bool Compensator::join(BlockRun& run, const PlannedMove& planned, Path& next, Po
     next.start = last_->end;
     return true;
   }
-  const AxisValues middle = tip_of(state, state.tip, next.start);
+  // Along the normal the corner stays level; all other axes turn with it, as on the control.
+  AxisValues middle = tip_of(state, state.tip, next.start);
+  if (!is_fanuc(run))
+    for (const Axis axis : all_axes)
+      if (axis > Axis::z) middle[axis] = planned.end[axis];
   if (planned.kind == PlannedMove::Kind::rapid) {
     run.emit_now(canon::Rapid{middle}, "corner of radius compensation");
   } else {

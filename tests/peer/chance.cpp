@@ -44,7 +44,9 @@ std::string Chance::value() {
     case 2:
       return "#[1+" + std::to_string(below(3)) + "]";
     case 3:
-      return "#<_" + pick({"metric", "feed", "x", "call_level", "global", "plane"}) + ">";
+      // Not -0: whether a position is that depends on how it was worked out, and ATAN shows it.
+      return pick(
+          {"#<_metric>", "#<_feed>", "[#<_x>+0]", "#<_call_level>", "#<_global>", "#<_plane>"});
     case 4:
       return "exists[#<" + pick({"nobody", "_x", "_nobody"}) + ">]";
     default:

@@ -224,8 +224,10 @@ void Cycle::execute() {
     if (!l) return;
     repeats = *l;
   }
-  // The control keeps the number that the program gave; ours has come through the frames.
-  c_ = std::round(c_ * 1e9) / 1e9;
+  // The control keeps the number that the program gave; ours has come through the frames. A number
+  // of few digits is found again, others stay as they are.
+  const double tidy = std::round(c_ * 1e9) / 1e9;
+  if (std::fabs(c_ - tidy) < 1e-12) c_ = tidy;
   if (!spindle_fits() || !read_words()) return;
   const CycleState& cycle = state_.cycle;
   r_ = state_.incremental ? cycle.initial + cycle.r : cycle.r;
