@@ -8,6 +8,9 @@
 
 namespace aircut::stock {
 
+inline constexpr double finest_pitch = 1e-4;       // mm
+inline constexpr double largest_coordinate = 1e6;  // mm: a kilometre, beyond which a unit is wrong
+
 struct Stock::Impl {
   Solid solid;
   Box3 box;

@@ -19,6 +19,10 @@ const std::vector<KindText>& stock_kinds() {
        "counter-clockwise. Remedy: export the mesh again as one watertight solid, or repair it in "
        "a\n"
        "mesh program; aircut doesn't guess."},
+      {"stock_file", "a saved stock can't be read",
+       "The file is not one that this version writes, was changed, or is not complete; the "
+       "message\n"
+       "says what is wrong and at which byte. Remedy: save the stock again."},
       {"stock_memory", "the stock doesn't fit into its memory",
        "Memory grows as the square of 1/pitch with the surface of the stock. The message names "
        "the\n"

@@ -65,11 +65,15 @@ Expected<Stock> Stock::make(const Solid& solid, double pitch, const StockOptions
   const auto box = solid_box(solid);
   if (!box) return unexpected(box.error());
   const Vec3 size = box->sizes();
-  if (!(pitch > 0) || !std::isfinite(pitch) || pitch > size.minCoeff())
-    return unexpected(make_error("stock_shape",
-                                 "the stock's pitch must be more than 0 and at most the smallest "
-                                 "side of the stock, " +
-                                     shortest(size.minCoeff()) + " mm"));
+  if (!(std::max(box->min().cwiseAbs().maxCoeff(), box->max().cwiseAbs().maxCoeff()) <=
+        largest_coordinate))
+    return unexpected(make_error("stock_shape", "the stock lies more than a kilometre away"));
+  if (!(pitch >= finest_pitch) || !std::isfinite(pitch) || pitch > size.minCoeff())
+    return unexpected(
+        make_error("stock_shape",
+                   "the stock's pitch must be at least 0.0001 mm and at most the smallest "
+                   "side of the stock, " +
+                       shortest(size.minCoeff()) + " mm"));
   if (bytes_to_begin(solid, *box, pitch) > static_cast<double>(options.memory_limit))
     return unexpected(make_error(
         "stock_memory", "a stock of " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " x " +

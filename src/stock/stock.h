@@ -12,6 +12,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -119,6 +120,10 @@ class Stock {
   /// Errors: `stock_shape` (size, pitch), `stock_mesh` (open mesh), `stock_memory` (names the
   /// finest pitch that fits).
   static Expected<Stock> make(const Solid& solid, double pitch, const StockOptions& options = {});
+  /// A stock from save(). Error `stock_file`: what is wrong, and where. `name` is what messages
+  /// call it.
+  static Expected<Stock> load(std::string_view bytes, const std::string& name,
+                              const StockOptions& options = {});
   Stock(Stock&&) noexcept;
   Stock& operator=(Stock&&) noexcept;
   ~Stock();
@@ -153,6 +158,8 @@ class Stock {
   double volume() const;
   /// The surface as a closed mesh, outward oriented.
   TriangleMesh mesh(MeshStatistics* statistics = nullptr) const;
+  /// The bytes of a file from which load() makes the same stock, bit for bit.
+  std::string save() const;
   /// SHA-256 over the material: equal for equal stock, however it came about.
   std::string hash() const;
 

@@ -394,6 +394,46 @@ TEST(Stock, OpenMeshAndBadSizesAreRefused) {
   EXPECT_NE(large.error().message.find("finest pitch that fits"), std::string::npos);
 }
 
+TEST(Stock, SavedStockIsReadAsTheSame) {
+  const Job job = random_job(tools(), 40, 13);
+  Stock stock = block(0.4);
+  ASSERT_TRUE(stock.cut(job.pieces));
+  const std::string bytes = stock.save();
+  auto again = Stock::load(bytes, "job1.stock");
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->hash(), stock.hash());
+  EXPECT_EQ(again->save(), bytes);
+  EXPECT_EQ(again->z_quanta(), stock.z_quanta());
+  const Job next = random_job(tools(), 20, 14);
+  ASSERT_TRUE(stock.cut(next.pieces));
+  ASSERT_TRUE(again->cut(next.pieces));
+  EXPECT_EQ(again->hash(), stock.hash());
+}
+
+TEST(Stock, SpoiltFilesAreRefused) {
+  const std::string good = block(0.5).save();
+  const auto refused = [](std::string bytes, const char* why, bool mend = false) {
+    if (mend) bytes.replace(bytes.size() - 64, 64, sha256(bytes.substr(0, bytes.size() - 64)));
+    const auto stock = Stock::load(bytes, "a.stock");
+    ASSERT_FALSE(stock) << why;
+    EXPECT_EQ(stock.error().kind, "stock_file");
+    EXPECT_NE(stock.error().message.find(why), std::string::npos) << stock.error().message;
+  };
+  refused("", "does not begin with");
+  refused("aircut stock 2\n" + good.substr(15), "does not begin with");
+  refused(good.substr(0, 40), "too early");
+  refused(good.substr(0, good.size() - 1), "check sum");
+  std::string changed = good;
+  changed[100] = static_cast<char>(changed[100] + 1);
+  refused(changed, "check sum");
+  refused(good.substr(0, good.size() - 80) + good.substr(good.size() - 64), "too early", true);
+  changed = good;
+  for (std::size_t i = 15; i < 23; ++i) changed[i] = 0;  // the pitch
+  refused(changed, "no size", true);
+  refused(good.substr(0, good.size() - 64) + "more" + good.substr(good.size() - 64), "goes on",
+          true);
+}
+
 TEST(Stock, MotionThatIsNotANumberIsAnErrorAndCutsNothing) {
   const auto flat = *CutterProfile::flat(6, 20);
   Stock stock = block(0.5);
