@@ -14,6 +14,7 @@ constexpr double largest_touch = 0.01;  // V_cut, mm³
 constexpr double longest_air = 20;      // mm of a feed move that takes nothing
 constexpr double plunge_angle = 3 * M_PI / 180;
 constexpr std::size_t batch_size = 256;
+constexpr double rough = 0.5;  // mm, tolerance of the moves that solids are asked with first
 
 double volume_of(const machine::RawStock& raw) {
   switch (raw.shape) {
@@ -96,14 +97,15 @@ void CuttingCheck::read_tool(const Scene& scene) {
   cutters_.clear();
   others_.clear();
   taped_.clear();
-  reach_ = {};
+  reach_ = cutter_reach_ = {};
   const tool::Tool* tool = scene.tool();
   no_tool_ = tool == nullptr;
   tool_known_ = no_tool_ || !tool->pieces.empty();
   if (no_tool_) {
     // Only whether the programmed point enters the stock: a pin, a millimetre wide.
-    cutters_.push_back({"spindle", machine::Role::cutter, *stock::CutterProfile::flat(1, 1)});
-    reach_ = {0.5, 1};
+    const auto pin = *stock::CutterProfile::flat(1, 1);
+    cutters_.push_back({"spindle", machine::Role::cutter, pin, pin});
+    reach_ = cutter_reach_ = {0.5, 1};
     return;
   }
   center_cutting_ = tool->center_cutting;
@@ -118,10 +120,13 @@ void CuttingCheck::read_tool(const Scene& scene) {
     const machine::Role role = cuts                                   ? machine::Role::cutter
                                : piece.role == tool::PieceRole::shank ? machine::Role::shank
                                                                       : machine::Role::holder;
-    reach_.radius = std::max(reach_.radius, profile->radius());
-    reach_.height = std::max(reach_.height, profile->high());
+    for (Reach* reach : {&reach_, cuts ? &cutter_reach_ : &reach_}) {
+      reach->radius = std::max(reach->radius, profile->radius());
+      reach->height = std::max(reach->height, profile->high());
+    }
     (cuts ? cutters_ : others_)
-        .push_back({"T" + std::to_string(tool->number) + "/" + piece.name, role, *profile});
+        .push_back({"T" + std::to_string(tool->number) + "/" + piece.name, role, *profile,
+                    profile->grown(rough + stock_->pitch() / 2)});
   }
 }
 
@@ -224,8 +229,7 @@ void CuttingCheck::step(const Step& step, Findings& out) {
   if (!stock() || std::holds_alternative<plan::Hold>(step.segment.path)) return;
   // What a probe touches has no model: the verdict is unknown already.
   if (std::holds_alternative<canon::Probe>(step.segment.command.action)) return;
-  moves_.clear();
-  if (!straight_moves(step, *raw_, reach_, tolerance_, moves_)) {
+  if (!find_moves(step)) {
     give_up("the way of the tool over the stock can't be told");
     return tell_given_up(step, out);
   }
@@ -236,6 +240,28 @@ void CuttingCheck::step(const Step& step, Findings& out) {
       f.message += ": " + fixed(*f.value, *f.value < 10 ? 2 : 0) + " mm³ in its way";
     out.add(std::move(f));
   }
+}
+
+// Where the tool turns, shank and holder are far from the middle of a turn and would need many
+// short moves. So they are asked with a few rough ones first, and most are clear.
+bool CuttingCheck::find_moves(const Step& step) {
+  doubtful_.clear();
+  moves_.clear();
+  if (!turns(step, *raw_)) {
+    for (const Solid& solid : others_) doubtful_.push_back(&solid);
+    return straight_moves(step, *raw_, reach_, tolerance_, moves_);
+  }
+  if (!straight_moves(step, *raw_, reach_, rough, moves_)) return false;
+  for (const Solid& solid : others_) {
+    const Solid wide{solid.name, solid.role, solid.wide, solid.wide};
+    const bool clear = std::all_of(moves_.begin(), moves_.end(), [&](const StraightMove& move) {
+      return !near(wide, move) || touch_of(piece(wide, move)).depth == 0;
+    });
+    if (!clear) doubtful_.push_back(&solid);
+  }
+  moves_.clear();
+  return straight_moves(step, *raw_, doubtful_.empty() ? cutter_reach_ : reach_, tolerance_,
+                        moves_);
 }
 
 void CuttingCheck::look_at(const Step& step, Findings& out) {
@@ -250,7 +276,7 @@ void CuttingCheck::look_at(const Step& step, Findings& out) {
   for (const StraightMove& move : moves_) {
     const double rise = (move.to - move.from).dot(move.axis);
     if (rise > 0)
-      for (const Solid& solid : others_) ask(step, move, solid);
+      for (const Solid* solid : doubtful_) ask(step, move, *solid);
     for (const Solid& cutter : cutters_) {
       const double way = (move.to - move.from).norm();
       if (kind)
@@ -262,7 +288,7 @@ void CuttingCheck::look_at(const Step& step, Findings& out) {
       if (!given_up_.empty()) return tell_given_up(step, out);
     }
     if (rise <= 0)
-      for (const Solid& solid : others_) ask(step, move, solid);
+      for (const Solid* solid : doubtful_) ask(step, move, *solid);
     if (!given_up_.empty()) return tell_given_up(step, out);
   }
 }

@@ -45,6 +45,7 @@ class CuttingCheck final : public Check {
     std::string name;
     machine::Role role;
     stock::CutterProfile profile;
+    stock::CutterProfile wide;  ///< larger by what rough moves may be wrong, and by half a pitch
   };
   void read_tool(const Scene& scene);
   std::optional<Kind> forbidden(const Step& step) const;
@@ -56,6 +57,7 @@ class CuttingCheck final : public Check {
   stock::Touch touch_of(const stock::Piece& piece);
   void hold(const Step& step, const Solid& cutter, const StraightMove& move);
   void flush();
+  bool find_moves(const Step& step);
   void look_at(const Step& step, Findings& out);
   void cutter_may_not(const Step& step, const StraightMove& move, const Solid& cutter, Kind kind);
   void ask(const Step& step, const StraightMove& move, const Solid& solid);
@@ -77,12 +79,13 @@ class CuttingCheck final : public Check {
   std::map<const stock::CutterProfile*, const stock::CutterProfile*> taped_;  ///< of cutters_
   bool tool_known_ = true;  ///< its solids are known, or there is none
   bool center_cutting_ = true, left_hand_ = false, no_tool_ = true;
-  Reach reach_;
-  std::vector<StraightMove> moves_;  ///< of the step at hand
-  std::vector<Finding> rows_;        ///< likewise
-  std::vector<stock::Piece> batch_;  ///< waiting to be cut
-  std::vector<double> batch_times_;  ///< program time at the end of each
-  std::string given_up_;             ///< why nothing more is known of the stock; empty: it is known
+  Reach reach_, cutter_reach_;          ///< of the whole tool, of what cuts
+  std::vector<const Solid*> doubtful_;  ///< of others_: not clear of the stock over the whole step
+  std::vector<StraightMove> moves_;     ///< of the step at hand
+  std::vector<Finding> rows_;           ///< likewise
+  std::vector<stock::Piece> batch_;     ///< waiting to be cut
+  std::vector<double> batch_times_;     ///< program time at the end of each
+  std::string given_up_;  ///< why nothing more is known of the stock; empty: it is known
   bool told_ = false;
 };
 

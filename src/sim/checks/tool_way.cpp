@@ -86,8 +86,11 @@ bool turning_axis(const Step& step, const machine::RawStock& stock, const Reach&
   const double length = plan::length(path);
   const double middle = reach.height / 2;
   const double rho = std::hypot(middle, reach.radius);
-  double parts =
-      std::max({1.0, parts_of(path, tolerance), std::ceil(turn * rho / (2 * tolerance))});
+  // A turn about the tool's own axis changes nothing, so what counts is the axis: its two ends in a
+  // step and, within a step of at most `widest`, how far it can be off the arc between them.
+  constexpr double widest = 0.02;  // rad
+  const double off = widest * widest / 8;
+  double parts = std::max({1.0, parts_of(path, tolerance), std::ceil(turn / widest)});
   const std::size_t begin = out.size();
   for (bool good = false; !good; parts *= 2) {
     if (!(parts <= most_moves)) return false;
@@ -99,7 +102,9 @@ bool turning_axis(const Step& step, const machine::RawStock& stock, const Reach&
       const auto b = tool_pose(step, stock, s1), m = tool_pose(step, stock, (s0 + s1) / 2);
       if (!a || !b || !m) return false;
       const Vec3 pa = a->tip + middle * a->axis, pb = b->tip + middle * b->axis;
-      good = (m->tip + middle * m->axis - (pa + pb) / 2).norm() <= tolerance;
+      const double angle = (a->axis - b->axis).norm() + 2 * off;
+      good = (m->tip + middle * m->axis - (pa + pb) / 2).norm() <= tolerance &&
+             (angle * rho <= 2 * tolerance || turn / parts < 1e-6);
       const Vec3 axis = (a->axis + b->axis).normalized();
       out.push_back({pa - middle * axis, pb - middle * axis, axis, s0, s1});
       a = b;
@@ -111,14 +116,23 @@ bool turning_axis(const Step& step, const machine::RawStock& stock, const Reach&
 
 }  // namespace
 
+namespace {
+
+double turn_over(const plan::Path& path) {
+  return turn_of(plan::bounds(path, 0, plan::length(path)).travel);
+}
+
+}  // namespace
+
+bool turns(const Step& step, const machine::RawStock& stock) {
+  return stock.link != step.scene.machine().work_link() || turn_over(step.segment.path) != 0;
+}
+
 bool straight_moves(const Step& step, const machine::RawStock& stock, const Reach& reach,
                     double tolerance, std::vector<StraightMove>& out) {
-  const double length = plan::length(step.segment.path);
-  if (!(length > 0)) return true;
-  const double turn = turn_of(plan::bounds(step.segment.path, 0, length).travel);
-  if (turn == 0 && stock.link == step.scene.machine().work_link())
-    return resting_axis(step, stock, tolerance, out);
-  return turning_axis(step, stock, reach, turn, tolerance, out);
+  if (!(plan::length(step.segment.path) > 0)) return true;
+  if (!turns(step, stock)) return resting_axis(step, stock, tolerance, out);
+  return turning_axis(step, stock, reach, turn_over(step.segment.path), tolerance, out);
 }
 
 }  // namespace aircut::sim
