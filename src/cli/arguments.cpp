@@ -252,7 +252,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
 
   CLI::App* c_machine =
       app.add_subcommand("machine",
-                         "look at a machine package\n\n"
+                         "look at a machine package, or begin one\n\n"
                          "  aircut machine info -m mill3\n"
                          "  aircut machine render -m machines/ox-glide-crossed -o machine.png");
   c_machine->require_subcommand(1);
@@ -283,6 +283,20 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_render->add_option("--size", size, "picture size (default 1280x800)")->type_name("WxH");
   c_render->add_option("--tool", machine.tool, "tool in the spindle")->type_name("T");
   c_render->add_flag("--force", machine.force, "replace a file that exists");
+  CLI::App* c_new = c_machine->add_subcommand(
+      "new",
+      "write a package made from a structural formula, with simple bodies and usual limits\n\n"
+      "  aircut machine new --formula 'R(MS:C)-O-T(TS:X)-T(VS:Z)' mylathe\n"
+      "  aircut machine check ./mylathe");
+  c_new->add_option("NAME", machine.machine, "folder of the new package")->required();
+  c_new
+      ->add_option("--formula", machine.formula,
+                   "structural formula, from the workpiece to the tool")
+      ->required()
+      ->type_name("FORMULA");
+  c_new->add_flag("--force", machine.force, "write into a folder that exists");
+  add_color(c_new, machine.color);
+  c_new->callback([&machine] { machine.action = MachineArguments::Action::create; });
 
   CLI::App* c_kin = app.add_subcommand(
       "kin",
@@ -294,14 +308,22 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       "several solutions the one nearest to home is taken. A row without an answer gives a line\n"
       "`error: …`, and exit code 1.\n\n"
       "  echo '250 0 -300' | aircut kin ik -m ox-glide-crossed\n"
+      "  echo '10 20 -150' | aircut kin ik --type delta-linear --param radius=120\n"
       "  echo 'X250 Y0 Z-300' | aircut kin ik -m ox-glide-crossed | aircut kin fk -m "
       "ox-glide-crossed");
   c_kin->require_subcommand(1);
   const auto add_kin = [&](const char* name, const char* text, KinArguments::Action action) {
     CLI::App* c = c_kin->add_subcommand(name, text);
     c->add_option("-m,--machine", kin.machine, "package folder, machine.toml, or a shipped name")
-        ->required()
         ->type_name("MACHINE");
+    c->add_option("--type", kin.type,
+                  "a kinematics without a package, by the `type` of its machine.toml")
+        ->type_name("NAME")
+        ->excludes("-m");
+    c->add_option("--param", kin.parameters,
+                  "a parameter of --type, as in machine.toml (repeatable)")
+        ->type_name("KEY=VALUE")
+        ->needs("--type");
     if (action == KinArguments::Action::ik)
       c->add_flag("--tool-vector", kin.tool_vector,
                   "rows are X Y Z I J K, the tip and the tool's direction; all joint positions");
@@ -449,7 +471,12 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     std::tie(machine.width, machine.height) = *pixels;
     return Arguments(machine);
   }
-  if (c_kin->parsed()) return Arguments(kin);
+  if (c_kin->parsed()) {
+    if (kin.action != KinArguments::Action::rot && kin.machine.empty() && kin.type.empty())
+      return usage_error(make_error("usage", "name a machine with -m, or a kinematics with --type"),
+                         active()->get_name());
+    return Arguments(kin);
+  }
   if (c_explain->parsed()) {
     if (explain.kind.empty() && !explain.list)
       return usage_error(make_error("usage", "explain needs a kind, or --list for all of them"),

@@ -72,20 +72,23 @@ struct TraceArguments {
 };
 
 struct MachineArguments {
-  enum class Action { check, info, render } action = Action::info;
+  enum class Action { check, info, render, create } action = Action::info;
   std::string machine, setup, tools;
   int tool = 0;
   std::string output = "machine.png";
   std::string camera = "iso";
   int width = 1280, height = 800;
   bool force = false;
+  std::string formula;  ///< create: `machine` is the folder that is written
   When color = When::automatic;
 };
 
 struct KinArguments {
   enum class Action { fk, ik, jac, rot } action = Action::ik;
   std::string machine;
-  bool tool_vector = false;  ///< ik: rows are X Y Z I J K
+  std::string type;                     ///< instead of a machine: a kinematics alone
+  std::vector<std::string> parameters;  ///< of the type: `radius=120`
+  bool tool_vector = false;             ///< ik: rows are X Y Z I J K
   // rot:
   std::string from = "XYZ-int", to = "XYZ-int";
   bool frame = false;    ///< rows are POS, the orientation, POS_R

@@ -39,6 +39,10 @@ const std::vector<KindText>& general_kinds() {
        "A body has the size of another unit, a link has no body, no body is the spindle, or a "
        "speed\n"
        "or time is missing, so that it can't be checked. docs/machine-package.md has the keys."},
+      {"formula", "a structural formula can't be read",
+       "The message has the column. A formula lists the couples from the workpiece over the bed O "
+       "to\n"
+       "the tool, like R(MS:C)-O-T(TS:X)-T(VS:Z); docs/formulas.md has the grammar."},
       {"mesh_invalid", "a mesh can't be used",
        "The file is missing, broken, empty or too large, or lies outside the package."},
       {"setup_invalid", "setup.toml is wrong",

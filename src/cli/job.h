@@ -77,6 +77,7 @@ int run_command(const RunArguments& arguments);
 int check_command(const CheckArguments& arguments);
 int trace_command(const TraceArguments& arguments);
 int machine_command(const MachineArguments& arguments);
+int new_command(const MachineArguments& arguments);
 int kin_command(const KinArguments& arguments);
 int rot_command(const KinArguments& arguments);
 int explain_command(const ExplainArguments& arguments);

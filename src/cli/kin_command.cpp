@@ -150,15 +150,25 @@ RowOrReason jacobian_row(const Machine& machine, const Row& row) {
   return out;
 }
 
+// The machine of -m, or a kinematics alone of --type.
+bool open_kinematics(Job& job, const KinArguments& a) {
+  if (a.type.empty()) {
+    ProgramArguments inputs;
+    inputs.machine = a.machine;
+    return open_inputs(job, inputs);
+  }
+  auto machine = machine::bare_machine(a.type, a.parameters, job.sources, job.diagnostics);
+  if (machine) job.machine = std::move(*machine);
+  return machine.has_value();
+}
+
 }  // namespace
 
 int kin_command(const KinArguments& a) {
   using Action = KinArguments::Action;
   if (a.action == Action::rot) return rot_command(a);
   Job job;
-  ProgramArguments inputs;
-  inputs.machine = a.machine;
-  const bool opened = open_inputs(job, inputs);
+  const bool opened = open_kinematics(job, a);
   print_errors(job.diagnostics, a.color);
   if (!opened) return code(ExitCode::unknown);
   const auto input = open_program(job.sources, "-");

@@ -104,6 +104,7 @@ void check_at_home(const Job& job, Diagnostics& out) {
 }  // namespace
 
 int machine_command(const MachineArguments& a) {
+  if (a.action == MachineArguments::Action::create) return new_command(a);
   Job job;
   ProgramArguments inputs;
   inputs.machine = a.machine;
@@ -120,6 +121,7 @@ int machine_command(const MachineArguments& a) {
     case MachineArguments::Action::render:
       return render_machine(a, job);
     case MachineArguments::Action::check:
+    case MachineArguments::Action::create:
       break;
   }
   machine::check_model(*job.machine, job.diagnostics);

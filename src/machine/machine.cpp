@@ -30,6 +30,8 @@ std::string_view to_string(Role role) {
   return "machine";
 }
 
+void Kinematics::couple(JointVector&) const {}
+
 void Kinematics::passive(const JointVector&, std::span<double> out) const {
   assert(passive_names().empty() && "a kinematics with passive values must compute them");
   std::fill(out.begin(), out.end(), 0.0);

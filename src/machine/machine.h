@@ -143,6 +143,8 @@ class Kinematics {
   /// Tip for joints (tool_offset as in Target); the error says why it can't be assembled.
   virtual tl::expected<AxisValues, ReachError> forward(const JointVector& joints,
                                                        const AxisValues& tool_offset) const = 0;
+  /// Sets joints that must follow others (the second drive of a gantry) to where they belong.
+  virtual void couple(JointVector& joints) const;
   /// Values of the passive joints (mm or rad) for driven ones that inverse() gave.
   virtual void passive(const JointVector& joints, std::span<double> out) const;
 
@@ -379,6 +381,14 @@ Expected<std::shared_ptr<const Machine>> apply_setup(const Machine& machine, con
 
 /// A package by folder, file, or by name among `search` folders; an unknown name lists the nearest.
 Expected<std::string> find_package(const std::string& what, const std::vector<std::string>& search);
+
+/// All kinematics types.
+std::vector<std::string> kinematics_types();
+/// A kinematics by type and parameters (`radius = 120`) alone: driven axes without limits, nothing
+/// to draw. Its problems go to `out`.
+Expected<std::shared_ptr<const Machine>> bare_machine(const std::string& type,
+                                                      const std::vector<std::string>& parameters,
+                                                      SourceMap& sources, Diagnostics& out);
 
 /// One line per problem of a machine that was read: meshes that are open, self-contact is not here
 /// (it needs the collision library). For `machine check`.

@@ -5,6 +5,7 @@
 
 #include "machine/kinematics/kinematics_table.h"
 #include "machine/reading.h"
+#include "machine/rotation/rotation.h"
 
 namespace aircut::machine {
 
@@ -27,11 +28,7 @@ Pose read_pose(config::Table& table, double unit_mm) {
     if (std::abs(value) * unit_mm > 1e6) return fail("'pose' goes up to 1 km and 1e6 degrees");
   const std::vector<double>& v = *values;
   Pose X = translation(Vec3(v[0], v[1], v[2]) * unit_mm);
-  if (v.size() == 6)
-    X.linear() = (Eigen::AngleAxisd(v[5] * deg, Vec3::UnitZ()) *
-                  Eigen::AngleAxisd(v[4] * deg, Vec3::UnitY()) *
-                  Eigen::AngleAxisd(v[3] * deg, Vec3::UnitX()))
-                     .toRotationMatrix();
+  if (v.size() == 6) X.linear() = about_fixed_axes(Vec3(v[3], v[4], v[5]) * deg);
   return X;
 }
 

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <numbers>
 
 #include "machine/kinematics/kinematics_table.h"
 #include "machine/reading.h"
+#include "machine/rotation/rotation.h"
 
 namespace aircut::machine {
 
@@ -29,8 +31,7 @@ void read_kinematics(config::Table& top, ReadState& state) {
     table->know("tcp");
     table->error("tcp", "'tcp' is not supported by this version");
   }
-  std::vector<std::string> types;
-  for (const KinematicsRow& row : kinematics_table()) types.emplace_back(row.type);
+  const std::vector<std::string> types = kinematics_types();
   const std::string type = table->required_text("type");
   std::vector<Joint> driven;
   for (const int at : state.machine.driven_) {
@@ -100,6 +101,9 @@ void read_spindle(config::Table& top, ReadState& state) {
   if (!table->has("gauge"))
     table->error("gauge", "'gauge' is missing: the point where the tool length is 0, in bed axes");
   spindle.gauge = point(*table, "gauge", Vec3::Zero(), state.unit_mm);
+  if (const auto angles = table->numbers("angles", 3))
+    spindle.R_LF = spindle.R_LF * about_fixed_axes(Vec3((*angles)[0], (*angles)[1], (*angles)[2]) *
+                                                   std::numbers::pi / 180);
   if (const auto rpm = table->numbers("rpm", 2)) {
     spindle.min_rpm = (*rpm)[0];
     spindle.max_rpm = (*rpm)[1];

@@ -5,6 +5,7 @@
 
 #include "machine/kinematics/kinematics_table.h"
 #include "machine/reading.h"
+#include "machine/rotation/rotation.h"
 
 namespace aircut::machine {
 
@@ -218,10 +219,7 @@ void read_work(config::Table& top, ReadState& state) {
   Pose& X_LM = state.machine.X_LM_;
   X_LM = translation(point(*work, "origin", Vec3::Zero(), state.unit_mm));
   if (const auto angles = work->numbers("angles", 3))
-    X_LM.linear() = (Eigen::AngleAxisd((*angles)[2] * deg, Vec3::UnitZ()) *
-                     Eigen::AngleAxisd((*angles)[1] * deg, Vec3::UnitY()) *
-                     Eigen::AngleAxisd((*angles)[0] * deg, Vec3::UnitX()))
-                        .toRotationMatrix();
+    X_LM.linear() = about_fixed_axes(Vec3((*angles)[0], (*angles)[1], (*angles)[2]) * deg);
   state.machine.spindle_.R_LF = X_LM.linear();
 }
 

@@ -92,7 +92,8 @@ std::optional<std::string> tree_disagrees(const Machine& machine) {
   constexpr int wanted = 1000;
   int compared = 0;
   for (int tries = 0; compared < wanted && tries < 50 * wanted; ++tries) {
-    const JointVector joints = random_joints(machine, random, turn);
+    JointVector joints = random_joints(machine, random, turn);
+    kinematics.couple(joints);
     const auto tip = kinematics.forward(joints, {});
     if (!tip) continue;
     ++compared;

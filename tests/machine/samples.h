@@ -2,11 +2,14 @@
 // tests loop over them; a row of the kinematics table without a sample fails.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include "machine/kinematics/chain.h"
+#include "machine/kinematics/kinematics_table.h"
 #include "machine/machine.h"
 #include "machine/random.h"
 
@@ -15,8 +18,46 @@ namespace aircut::machine {
 struct Sample {
   std::string name;
   std::shared_ptr<const Kinematics> kinematics;
-  AxisValues low, high;  ///< tip poses, all reachable; mm and rad
+  AxisValues low, high;              ///< tip poses, all reachable; mm and rad
+  JointVector near = JointVector();  ///< starts the search; empty: all zero
+  bool bounded = true;               ///< has travel bounds
+  bool tools = true;                 ///< takes a tool length along Z
+  /// How far a value may turn back within 0.01 mm, where its slope is zero.
+  double turning = 1e-9;
+
+  int ways = 300;  ///< how many random ways its travel bounds are held against
+
+  JointVector start() const {
+    return near.size() > 0 ? near : JointVector::Zero(kinematics->joint_count());
+  }
 };
+
+/// A kinematics by its type, as a package's `[kinematics]` table makes it; with `drawn` the package
+/// has couples for the rods.
+inline std::shared_ptr<const Kinematics> of_type(const std::string& type,
+                                                 const std::vector<std::string>& parameters = {},
+                                                 bool drawn = false) {
+  SourceMap sources;
+  Diagnostics out;
+  auto bare = bare_machine(type, parameters, sources, out);
+  for (const Diagnostic& d : out.list()) ADD_FAILURE() << type << ": " << d.message;
+  if (!bare) return nullptr;
+  if (!drawn) return (*bare)->kinematics_;
+  Machine machine = **bare;
+  machine.tree_.emplace_back();
+  machine.tree_.back().passive = "rod";
+  const std::string text = "type = \"" + type + "\"\n";
+  const SourceText& source = sources.add("drawn", text);
+  config::Reader reader(source, "usage");
+  config::Table table = reader.top();
+  for (const KinematicsRow& row : kinematics_table()) {
+    if (row.type != type) continue;
+    const std::span<const Joint> driven((*bare)->tree_);
+    KinematicsInput input{table, 1.0, driven, machine};
+    return row.make(input);
+  }
+  return nullptr;
+}
 
 inline AxisValues axis_values(double x, double y, double z, double a = 0, double b = 0,
                               double c = 0) {
@@ -68,6 +109,101 @@ inline std::shared_ptr<const Kinematics> sample_turning_slide() {
   return make_chain(g, reason);
 }
 
+inline JointVector joint_values(std::initializer_list<double> values) {
+  JointVector q(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), q.data());
+  return q;
+}
+
+/// The catalogue of machines.
+inline std::vector<Sample> catalogue() {
+  constexpr double deg = std::numbers::pi / 180;
+  const auto xyz = [](double x, double y, double z) { return axis_values(x, y, z); };
+  const auto five = [&](double x, double y, double z, double a, double b, double c = 0) {
+    return axis_values(x, y, z, a * deg, b * deg, c * deg);
+  };
+  const double turns = 2e-6;
+  std::vector<Sample> all = {
+      {"calibrated",
+       of_type("calibrated",
+               {"matrix = [1, 0.01, 0, -0.02, 1.001, 0, 0.003, 0, 0.999]", "offset = [1, 2, 3]"}),
+       xyz(-200, -150, -300), xyz(200, 150, 0)},
+      {"corexy", of_type("corexy"), xyz(-200, -150, -300), xyz(200, 150, 0)},
+      {"corexy, XZ", of_type("corexy", {"pair = \"XZ\""}), xyz(-200, -150, -300), xyz(200, 150, 0)},
+      {"gantry", of_type("gantry", {"axis = \"Y\"", "span = 900"}), xyz(-200, -150, -300),
+       xyz(200, 150, 0)},
+      {"polar", of_type("polar"), xyz(20, -150, -300), xyz(200, 150, 0)},
+      {"rotated-xy", of_type("rotated-xy"), five(-200, -150, -300, 0, 0, -170),
+       five(200, 150, 0, 0, 0, 170)},
+      {"plotter", of_type("plotter", {}, true), xyz(100, -700, -5), xyz(900, -150, 40)},
+      {"biglide", of_type("biglide", {}, true), xyz(100, -50, -350), xyz(300, 50, -150)},
+      {"five-bar", of_type("five-bar"), xyz(-80, 280, -20), xyz(80, 400, 20)},
+      {"tripod", of_type("tripod", {}, true), xyz(350, 150, 400), xyz(600, 450, 900)},
+      {"tripod, hanging", of_type("tripod", {"root = \"lower\""}), xyz(350, 150, -900),
+       xyz(600, 450, -400)},
+      {"tripod-inverted", of_type("tripod-inverted", {}, true),
+       five(350, 150, -900, -40, -40, -400), five(600, 450, -400, 40, 40, 400)},
+      {"triglide", of_type("triglide", {}, true), xyz(-200, -60, -420), xyz(200, 60, -300)},
+      {"delta-linear", of_type("delta-linear", {}, true), xyz(-60, -60, -100), xyz(60, 60, 100)},
+      {"delta-rotary", of_type("delta-rotary"), xyz(-60, -60, -420), xyz(60, 60, -300)},
+      {"hexapod", of_type("hexapod", {}, true), five(-60, -60, -680, -15, -15, -15),
+       five(60, 60, -560, 15, 15, 15)},
+      {"hexapod, off centre", of_type("hexapod", {"gauge = [10, -20, -90]"}),
+       five(-60, -60, -780, -15, -15, -15), five(60, 60, -660, 15, 15, 15)},
+      {"hexaglide", of_type("hexaglide", {}, true), five(-40, -40, -450, -12, -12, -12),
+       five(40, 40, -350, 12, 12, 12)},
+      {"pentapod", of_type("pentapod"), five(-60, -60, -60, -12, -12), five(60, 60, 60, 12, 12)},
+      {"scara", of_type("scara"), five(150, 100, 100, 0, 0, -300), five(350, 250, 400, 0, 0, 300)},
+      {"scorbot", of_type("scorbot"), five(150, -150, 60, -90, -90), five(300, 150, 250, 90, 90)},
+      {"scorbot, differential", of_type("scorbot", {"differential = true"}),
+       five(150, -150, 60, -90, -90), five(300, 150, 250, 90, 90)},
+      {"lathe-vertical", of_type("lathe-vertical"), xyz(40, -150, 100), xyz(300, 150, 400)},
+      {"lathe-vertical, beside the axis", of_type("lathe-vertical", {"e = 14.738"}),
+       xyz(-300, -150, 100), xyz(-40, 150, 400), joint_values({-500, 0, 0})},
+      {"puma", of_type("puma"), five(250, 50, -250, 150, -25, -25),
+       five(400, 250, -50, 178, 25, 25), joint_values({0, 0, -2.4, 0, 1, 0})},
+      {"three21", of_type("three21"), five(200, 50, 0, 150, -25, -25),
+       five(300, 150, 100, 178, 25, 25), joint_values({0, 0, -2.4, 0, 1, 0})},
+      {"serial", of_type("serial"), five(250, 50, -250, -25, -25, -25),
+       five(400, 250, -50, 25, 25, 25), joint_values({0.4, -1, 0.4, 0.1, 0.7, 0.1})},
+      {"serial, five joints",
+       of_type("serial", {"dh = [[0, 0, 0, 0], [0, 0, 0, -90], [0, 0, 300, 0], [0, 0, 400, 0], [0, "
+                          "0, 0, -90]]",
+                          "convention = \"modified\""}),
+       five(300, 50, -250, -20, -20), five(450, 150, -100, 20, 20),
+       joint_values({0.2, -1.4, 1.6, 0, 0})},
+      {"serial, with a slide",
+       of_type("serial", {"dh = [[0, 490, 340, 0], [0, 0, 250, 180], [0, 0, 0, 0]]",
+                          "kinds = \"RRT\"", "convention = \"standard\""}),
+       xyz(250, 100, 100), xyz(400, 250, 400), joint_values({0.1, 1, 200})},
+      {"four-axis", of_type("four-axis", {"axis = \"B\"", "point1 = [10, 0, -80]"}),
+       five(-200, -150, -300, 0, -170), five(200, 150, 0, 0, 170)},
+      {"table-ac", of_type("table-ac", {"point1 = [0, 5, -60]"}),
+       five(-200, -150, -300, -100, 0, -170), five(200, 150, 0, 100, 0, 170)},
+      {"table-bc", of_type("table-bc"), five(-200, -150, -300, 0, -100, -170),
+       five(200, 150, 0, 0, 100, 170)},
+      {"table-ab", of_type("table-ab"), five(-200, -150, -300, -100, -170),
+       five(200, 150, 0, 100, 170)},
+      {"head-ab", of_type("head-ab"), five(-200, -150, -300, -100, -100),
+       five(200, 150, 0, 100, 100)},
+      {"head-ca", of_type("head-ca"), five(-200, -150, -300, -100, 0, -170),
+       five(200, 150, 0, 100, 0, 170)},
+      {"head-cb, nutating", of_type("head-cb", {"direction2 = [0.6, 0, 0.8]"}),
+       five(-200, -150, -300, 0, -100, -170), five(200, 150, 0, 0, 100, 170)},
+      {"head-a-table-c", of_type("head-a-table-c"), five(-200, -150, -300, -100, 0, -170),
+       five(200, 150, 0, 100, 0, 170)},
+      {"head-b-table-c", of_type("head-b-table-c"), five(-200, -150, -300, 0, -100, -170),
+       five(200, 150, 0, 0, 100, 170)},
+  };
+  for (Sample& sample : all) {
+    sample.turning = turns;
+    sample.ways = 25;
+    sample.bounded = sample.kinematics->type() != "serial";
+    sample.tools = sample.kinematics->type() != "scorbot";
+  }
+  return all;
+}
+
 inline std::vector<Sample> samples() {
   constexpr double pi = std::numbers::pi;
   constexpr double deg = pi / 180;
@@ -84,7 +220,7 @@ inline std::vector<Sample> samples() {
   extended.form = OxGlide::Form::extended;
   OxGlide shifted;
   shifted.offset = Vec3(3, -4, -60);
-  return {
+  std::vector<Sample> all = {
       {"identity XYZ", make_identity({Axis::x, Axis::y, Axis::z}), axis_values(-300, -200, -400),
        axis_values(300, 200, 0)},
       {"identity XZ with offset", make_identity({Axis::x, Axis::z}, Vec3(10, 20, 30)),
@@ -116,6 +252,9 @@ inline std::vector<Sample> samples() {
        axis_values(-250, -1100, 150, -25 * deg, -25 * deg, -40 * deg),
        axis_values(250, -850, 450, 25 * deg, 25 * deg, 40 * deg)},
   };
+  const std::vector<Sample> more = catalogue();
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
 inline AxisValues random_tip(const Sample& sample, Random& random) {

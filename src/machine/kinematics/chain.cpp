@@ -25,64 +25,12 @@
 
 #include "machine/kinematics/kinematics_table.h"
 #include "machine/kinematics/slope_bound.h"
+#include "machine/kinematics/vectors.h"
 #include "machine/rotation/two_turns.h"
 
 namespace aircut::machine {
 
 namespace {
-
-template <class T>
-using Vector = std::array<T, 3>;
-
-template <class T>
-Vector<T> vector_of(const Vec3& v) {
-  return {T(v.x()), T(v.y()), T(v.z())};
-}
-
-template <class T>
-T dot(const Vec3& a, const Vector<T>& b) {
-  T sum(0);
-  for (int i = 0; i < 3; ++i)
-    if (a[i] != 0) sum = sum + T(a[i]) * b[static_cast<std::size_t>(i)];
-  return sum;
-}
-
-template <class T>
-T dot(const Vector<T>& a, const Vector<T>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-template <class T>
-Vector<T> cross(const Vector<T>& a, const Vector<T>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-/// A turn about a constant unit vector (Rodrigues), by its matrix' entries.
-template <class T>
-struct Turn {
-  std::array<Vector<T>, 3> rows;
-  Turn(const Vec3& u, const T& angle) {
-    using std::cos;
-    using std::sin;
-    const T c = cos(angle), s = sin(angle), v = T(1) - c;
-    const Mat3 K = skew(u);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        T entry = u[i] * u[j] == 0 ? T(0) : T(u[i] * u[j]) * v;
-        if (i == j) entry = entry + c;
-        if (K(i, j) != 0) entry = entry + T(K(i, j)) * s;
-        rows[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] = entry;
-      }
-  }
-  Vector<T> operator()(const Vector<T>& p) const {
-    return {dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)};
-  }
-  static Mat3 skew(const Vec3& u) {
-    Mat3 K;
-    K << 0, -u.z(), u.y(), u.z(), 0, -u.x(), -u.y(), u.x(), 0;
-    return K;
-  }
-};
 
 /// What the rotary joints leave to the linear ones: p_M = p + Σ c[i] · q[linear i].
 template <class T>
@@ -113,7 +61,7 @@ class Chain final : public Kinematics {
     while (linear_end_ < way_.size() && way_[linear_end_].kind == JointKind::linear) ++linear_end_;
   }
 
-  std::string_view type() const override { return "chain"; }
+  std::string_view type() const override { return g_.type; }
   AxisSet axes() const override { return axes_; }
   int joint_count() const override { return static_cast<int>(g_.words.size()); }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "machine/machine.h"
@@ -20,11 +21,12 @@ struct ChainCouple {
 };
 
 struct ChainGeometry {
-  std::vector<ChainCouple> work;  ///< from the bed to the work
-  std::vector<ChainCouple> tool;  ///< from the bed to the spindle
-  std::vector<Axis> words;        ///< by joint: the program axis that it is named after
-  Pose X_LM = Pose::Identity();   ///< M seen from the bed with all joints at zero
-  Vec3 gauge = Vec3::Zero();      ///< F, bed axes, all joints zero; its axes are those of M then
+  std::string_view type = "chain";  ///< a preset has its own name
+  std::vector<ChainCouple> work;    ///< from the bed to the work
+  std::vector<ChainCouple> tool;    ///< from the bed to the spindle
+  std::vector<Axis> words;          ///< by joint: the program axis that it is named after
+  Pose X_LM = Pose::Identity();     ///< M seen from the bed with all joints at zero
+  Vec3 gauge = Vec3::Zero();        ///< F, bed axes, all joints zero; its axes are those of M then
 };
 
 /// Null when the couples are not three linear ones with the words X Y Z and up to three rotary

@@ -106,6 +106,17 @@ std::shared_ptr<const Kinematics> make_identity(const std::vector<Axis>& axes, c
   return std::make_shared<Identity>(axes, offset);
 }
 
+std::string identity_joints(config::Table& table) {
+  std::string names;
+  for (const char c : table.text("coordinates", "XYZ")) {
+    const auto axis = axis_of_letter(c);
+    if (!axis) continue;  // told by the reader
+    names +=
+        (names.empty() ? "" : " ") + std::string(1, letter(*axis)) + (is_rotary(*axis) ? "*" : "");
+  }
+  return names;
+}
+
 std::shared_ptr<const Kinematics> read_identity(KinematicsInput& input) {
   const Vec3 offset = point(input.table, "offset", Vec3::Zero(), input.unit_mm);
   const bool given = input.table.has("coordinates");

@@ -24,6 +24,11 @@ struct KinematicsRow {
   /// Do X Y Z follow the work through rotary joints? If not (a control without TCP), tree and
   /// kinematics are compared with the rotary joints at zero only.
   bool follows_rotary;
+  /// Names of the driven axes for the type without a package, those that turn with a star; empty:
+  /// the type needs a package.
+  std::string_view joints;
+  /// Likewise where they depend on the parameters; null otherwise.
+  std::string (*joints_of)(config::Table& table);
 };
 
 std::span<const KinematicsRow> kinematics_table();
@@ -35,6 +40,31 @@ std::shared_ptr<const Kinematics> read_ox_glide(KinematicsInput& input);
 std::shared_ptr<const Kinematics> read_robot_horizontal(KinematicsInput& input);
 std::shared_ptr<const Kinematics> read_robot_vertical(KinematicsInput& input);
 std::shared_ptr<const Kinematics> read_robot_6r(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_calibrated(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_corexy(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_gantry(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_polar(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_rotated_xy(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_plotter(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_biglide(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_five_bar(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_tripod(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_tripod_inverted(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_triglide(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_delta_linear(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_delta_rotary(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_hexapod(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_hexaglide(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_pentapod(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_scara(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_scorbot(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_puma(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_three21(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_lathe_vertical(KinematicsInput& input);
+std::shared_ptr<const Kinematics> read_serial(KinematicsInput& input);
+std::string identity_joints(config::Table& table);
+std::string serial_joints(config::Table& table);
+std::span<const KinematicsRow> preset_rows();
 
 /// A length in mm from the table, within ±1 km; errors go to the table.
 double length(config::Table& table, const std::string& key, double fallback, double unit_mm);

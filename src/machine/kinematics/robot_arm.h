@@ -20,9 +20,6 @@
 
 namespace aircut::machine {
 
-template <class T>
-using RobotVector = std::array<T, 3>;
-
 /// Frame 3, whose x axis leads from the elbow across the forearm and z along it.
 template <class T>
 struct Forearm {
@@ -36,7 +33,7 @@ struct Forearm {
     s23 = sin(t23);
   }
   /// A direction of {0} seen from frame 3.
-  RobotVector<T> seen(const RobotVector<T>& a) const {
+  Vector<T> seen(const Vector<T>& a) const {
     const T out = c1 * a[0] + s1 * a[1];  // along e_r
     return {c23 * a[2] - s23 * out, s1 * a[0] - c1 * a[1], c23 * out + s23 * a[2]};
   }
@@ -44,8 +41,8 @@ struct Forearm {
 
 /// θ1 … θ5 for the wrist centre C and the direction n of the flange, both in {0}.
 template <class T>
-void solve_arm(const RobotArm& p, const RobotBranch& branch, const RobotVector<T>& C,
-               const RobotVector<T>& n, RobotJoints<T>& q) {
+void solve_arm(const RobotArm& p, const RobotBranch& branch, const Vector<T>& C, const Vector<T>& n,
+               RobotJoints<T>& q) {
   using std::acos;
   using std::atan2;
   using std::sqrt;
@@ -61,9 +58,21 @@ void solve_arm(const RobotArm& p, const RobotBranch& branch, const RobotVector<T
   q[2] = T(std::atan2(p.d4, p.a3)) - e * acos(K);
   const T lift = e * T(l3) * sqrt((T(1) - K) * (T(1) + K));
   q[1] = atan2(v, u) - T(std::numbers::pi / 2) + atan2(lift, T(p.a2) + T(l3) * K);
-  const RobotVector<T> m = Forearm<T>(q[0], q[1] + q[2]).seen(n);
+  const Vector<T> m = Forearm<T>(q[0], q[1] + q[2]).seen(n);
   q[3] = atan2(-w * m[1], -w * m[0]);
   q[4] = atan2(m[2], w * sqrt(square(m[0]) + square(m[1])));
+}
+
+/// θ6 for the others and the flange's x axis in {0}. Frame 5 seen from frame 3: x_5 = (c4 s5, s4
+/// s5, c5), y_5 = (−s4, c4, 0), and θ6 = atan2(y_5·x_6, x_5·x_6).
+template <class T>
+T roll_of_flange(const RobotJoints<T>& q, const Vector<T>& x6_in_0) {
+  using std::atan2;
+  using std::cos;
+  using std::sin;
+  const Vector<T> x6 = Forearm<T>(q[0], q[1] + q[2]).seen(x6_in_0);
+  const T c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]);
+  return atan2(c4 * x6[1] - s4 * x6[0], s5 * (c4 * x6[0] + s4 * x6[1]) + c5 * x6[2]);
 }
 
 /// Why there is no solution; nothing when there is one.
@@ -75,6 +84,37 @@ RobotBranch branch_of_arm(const RobotArm& p, double t2, double t3, double t5);
 Pose flange(const RobotArm& p, const RobotJoints<double>& q);
 /// The tip of a tool on the flange's axis, dt beyond it, seen from M (x_M = y_0, y_M = −x_0).
 Pose tool_on_flange(const RobotArm& p, const RobotJoints<double>& q);
+/// The wrist of a machine with the tool on the flange's axis. M: v_0 = (−v_My, v_Mx, v_Mz).
+template <class T>
+struct Wrist {
+  Vector<T> C, n;  ///< its centre and the direction of the flange, in {0}
+};
+struct CoaxialRobot : RobotModel {
+  // The four configurations of shoulder and elbow; the wrist's side changes no slope's size.
+  static constexpr std::array<RobotBranch, 4> branches() {
+    return {{{1, 1, 1}, {1, -1, 1}, {-1, 1, 1}, {-1, -1, 1}}};
+  }
+  RobotBranch branch_of(const JointVector& q) const { return branch_of_arm(p, q[1], q[2], q[4]); }
+
+  // The tool points from the flange along z_6, so k = −z_6 and C = tip + (d6 + dt + L)·k.
+  template <class T>
+  Wrist<T> wrist(const RobotPose<T>& pose, double length) const {
+    using std::cos;
+    using std::sin;
+    const T reach(p.d6 + p.dt + length);
+    const T ca = cos(pose[3]), sa = sin(pose[3]), cb = cos(pose[4]), sb = sin(pose[4]);
+    const Vector<T> k = {sa * cb, sb, ca * cb};
+    return {{reach * k[0] - pose[1], reach * k[1] + pose[0], reach * k[2] + pose[2]},
+            {-k[0], -k[1], -k[2]}};
+  }
+
+  std::optional<std::string> why_not(const RobotPose<double>& pose, const Vec3& tool,
+                                     const RobotBranch& branch) const {
+    const auto [C, n] = wrist(pose, tool.z());
+    return why_no_arm(p, branch, vec3(C), vec3(n));
+  }
+};
+
 /// The keys that the machines with a tool on the flange's axis have.
 std::span<const RobotKey> coaxial_robot_keys();
 

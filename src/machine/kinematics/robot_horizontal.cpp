@@ -21,10 +21,10 @@ namespace aircut::machine {
 
 namespace {
 
-struct Horizontal {
-  static constexpr std::string_view type = "robot-horizontal";
+struct Horizontal : RobotModel {
   static constexpr int joints = 5;
-  RobotArm p;
+  std::string_view type() const { return "robot-horizontal"; }
+  AxisSet axes() const { return axes_of("XYZAB"); }
 
   // Shoulder in front, elbow and spindle on one side: the only configuration.
   static constexpr std::array<RobotBranch, 1> branches() { return {{{1, 1, 1}}}; }
@@ -69,11 +69,11 @@ struct Horizontal {
   }
 
   template <class T>
-  RobotJoints<T> solve(const RobotPose<T>& pose, double length, const RobotBranch&) const {
+  RobotJoints<T> solve(const RobotPose<T>& pose, const Vec3& tool, const RobotBranch&) const {
     using std::acos;
     using std::atan2;
     using std::sqrt;
-    const Way<T> w = way(pose, length);
+    const Way<T> w = way(pose, tool.z());
     RobotJoints<T> q{};
     q[0] = w.t1;
     q[4] = T(std::numbers::pi / 2) - acos(w.s5);
@@ -84,9 +84,9 @@ struct Horizontal {
     return q;
   }
 
-  std::optional<std::string> why_not(const RobotPose<double>& pose, double length,
+  std::optional<std::string> why_not(const RobotPose<double>& pose, const Vec3& tool,
                                      const RobotBranch&) const {
-    const Way<double> w = way(pose, length);
+    const Way<double> w = way(pose, tool.z());
     if (!(w.r > robot_singular))
       return "the spindle's interface is on the axis of joint 1, which can turn freely there (a "
              "singular pose)";
@@ -119,6 +119,11 @@ struct Horizontal {
     return std::nullopt;
   }
 
+  tl::expected<AxisValues, ReachError> forward(const JointVector& q, const Vec3& tool) const {
+    if (auto error = why_not_joints(q)) return unexpected(ReachError{std::move(*error)});
+    return robot_tip(gauge(q), tool, false);
+  }
+
   // Gauge point and axes of the tool in M, from the chain of joints.
   Pose gauge(const JointVector& q) const {
     const auto about = [](double angle, const Vec3& axis) {
@@ -144,7 +149,7 @@ struct Horizontal {
 }  // namespace
 
 std::shared_ptr<const Kinematics> make_robot_horizontal(const RobotArm& arm) {
-  return std::make_shared<RobotKinematics<Horizontal>>(arm);
+  return make_model(Horizontal{RobotModel{{}, arm}});
 }
 
 std::shared_ptr<const Kinematics> read_robot_horizontal(KinematicsInput& input) {
@@ -154,7 +159,7 @@ std::shared_ptr<const Kinematics> read_robot_horizontal(KinematicsInput& input) 
                                                     {"dt", &RobotArm::dt, false},
                                                     {"at", &RobotArm::at, false}}};
   RobotArm arm;
-  if (!read_robot_arm(input, Horizontal::type, Horizontal::joints, keys, arm)) return nullptr;
+  if (!read_robot_arm(input, "robot-horizontal", Horizontal::joints, keys, arm)) return nullptr;
   return make_robot_horizontal(arm);
 }
 

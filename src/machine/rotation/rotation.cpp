@@ -96,6 +96,8 @@ Mat3 matrix_of(const RotationConvention& convention, const Vec3& angles) {
   return convention.intrinsic ? Mat3(first * second * third) : Mat3(third * second * first);
 }
 
+Mat3 about_fixed_axes(const Vec3& angles) { return matrix_of({{0, 1, 2}, false}, angles); }
+
 RotationAngles angles_of(const RotationConvention& convention, const Mat3& R) {
   std::array<int, 3> axes = convention.axes;
   if (!convention.intrinsic) std::swap(axes[0], axes[2]);

@@ -33,6 +33,9 @@ tl::expected<RotationConvention, std::string> convention_of_name(std::string_vie
 /// Columns are the turned axes seen from the fixed ones.
 Mat3 matrix_of(const RotationConvention& convention, const Vec3& angles);
 
+/// XYZ-ext, the convention of our files: about the fixed X, then Y, then Z axis.
+Mat3 about_fixed_axes(const Vec3& angles);
+
 struct RotationAngles {
   Vec3 angles = Vec3::Zero();  ///< in the order of the axes; the second within ±90°
   bool locked = false;  ///< the second is ±90°: only the sum or difference of the others counts,
