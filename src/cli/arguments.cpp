@@ -169,6 +169,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   TraceArguments trace;
   MachineArguments machine;
   KinArguments kin;
+  WorkspaceArguments workspace;
   ExplainArguments explain;
   std::vector<std::string> set;
   std::string fail_on = "error", size = "1280x800";
@@ -324,6 +325,10 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
                   "a parameter of --type, as in machine.toml (repeatable)")
         ->type_name("KEY=VALUE")
         ->needs("--type");
+    if (action == KinArguments::Action::sweep)
+      c->add_option("RANGE", kin.ranges,
+                    "WORD=FROM:TO:STEP or WORD=VALUE; words that are not given stay at home")
+          ->required();
     if (action == KinArguments::Action::ik)
       c->add_flag("--tool-vector", kin.tool_vector,
                   "rows are X Y Z I J K, the tip and the tool's direction; all joint positions");
@@ -336,6 +341,10 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
           "pose → d joint / d pose word, row by row: all pose words of the first joint, then of "
           "the second, …",
           KinArguments::Action::jac);
+  add_kin("sweep",
+          "a grid of poses, each with its joints: the words that change as WORD=FROM:TO:STEP\n\n"
+          "  aircut kin sweep -m ox-glide-crossed X=160:340:20 Z=-350:-300:10",
+          KinArguments::Action::sweep);
   CLI::App* c_rot = c_kin->add_subcommand(
       "rot",
       "orientations of one convention in another one, frames of a rotation cycle, angles of a "
@@ -364,6 +373,33 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       "BIN_OUT and the frame's origin");
   add_color(c_rot, kin.color);
   c_rot->callback([&kin] { kin.action = KinArguments::Action::rot; });
+
+  CLI::App* c_workspace = app.add_subcommand(
+      "workspace",
+      "what a machine reaches, on a grid: share, area or volume, extent, largest box\n\n"
+      "A range is FROM:TO in mm (or degrees), or one number for a slice; an axis without one is\n"
+      "searched as far as the joints reach.\n\n"
+      "  aircut workspace -m ox-glide-crossed --y 0 --pitch 1\n"
+      "  aircut workspace -m lola50-horizontal --pitch 100 --nodes --tilt-a=-25:25 "
+      "--tilt-b=-25:25");
+  c_workspace
+      ->add_option("-m,--machine", workspace.machine,
+                   "package folder, machine.toml, or a shipped name")
+      ->required()
+      ->type_name("MACHINE");
+  for (const auto& [name, text] : {std::pair("--x", &workspace.x), std::pair("--y", &workspace.y),
+                                   std::pair("--z", &workspace.z)})
+    c_workspace->add_option(name, *text, "range along this axis")->type_name("FROM:TO");
+  c_workspace->add_option("--tilt-a", workspace.a, "range of A that every point must allow")
+      ->type_name("FROM:TO");
+  c_workspace->add_option("--tilt-b", workspace.b, "range of B that every point must allow")
+      ->type_name("FROM:TO");
+  c_workspace->add_option("--pitch", workspace.pitch, "distance of the points (default 10)")
+      ->type_name("MM");
+  c_workspace->add_flag("--nodes", workspace.nodes, "points at the ends of the ranges, not cells");
+  c_workspace->add_flag("--connected", workspace.connected,
+                        "only what is connected with home by neighbouring points");
+  add_color(c_workspace, workspace.color);
 
   CLI::App* c_explain = app.add_subcommand("explain",
                                            "what a kind of message means\n\n"
@@ -477,6 +513,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
                          active()->get_name());
     return Arguments(kin);
   }
+  if (c_workspace->parsed()) return Arguments(workspace);
   if (c_explain->parsed()) {
     if (explain.kind.empty() && !explain.list)
       return usage_error(make_error("usage", "explain needs a kind, or --list for all of them"),

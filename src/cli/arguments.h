@@ -84,10 +84,11 @@ struct MachineArguments {
 };
 
 struct KinArguments {
-  enum class Action { fk, ik, jac, rot } action = Action::ik;
+  enum class Action { fk, ik, jac, sweep, rot } action = Action::ik;
   std::string machine;
   std::string type;                     ///< instead of a machine: a kinematics alone
   std::vector<std::string> parameters;  ///< of the type: `radius=120`
+  std::vector<std::string> ranges;      ///< sweep: `X=0:500:50`
   bool tool_vector = false;             ///< ik: rows are X Y Z I J K
   // rot:
   std::string from = "XYZ-int", to = "XYZ-int";
@@ -95,6 +96,15 @@ struct KinArguments {
   bool add = false;      ///< each row is a step on top of the one before
   bool inverse = false;  ///< both solutions
   bool cycle = false;    ///< rows are calls of CYCLE600
+  When color = When::automatic;
+};
+
+struct WorkspaceArguments {
+  std::string machine;
+  std::string x, y, z;  ///< FROM:TO, one number, or empty: all that can be reached
+  std::string a, b;     ///< tilts that each point must allow
+  double pitch = 10;
+  bool nodes = false, connected = false;
   When color = When::automatic;
 };
 
@@ -106,7 +116,7 @@ struct ExplainArguments {
 struct DoctorArguments {};
 
 using Arguments = std::variant<RunArguments, CheckArguments, TraceArguments, MachineArguments,
-                               KinArguments, ExplainArguments, DoctorArguments>;
+                               KinArguments, WorkspaceArguments, ExplainArguments, DoctorArguments>;
 
 /// Either what to do, or the exit code when the command line was answered (help, version, usage).
 std::variant<Arguments, int> parse(int argc, char** argv);

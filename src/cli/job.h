@@ -79,6 +79,7 @@ int trace_command(const TraceArguments& arguments);
 int machine_command(const MachineArguments& arguments);
 int new_command(const MachineArguments& arguments);
 int kin_command(const KinArguments& arguments);
+int workspace_command(const WorkspaceArguments& arguments);
 int rot_command(const KinArguments& arguments);
 int explain_command(const ExplainArguments& arguments);
 int doctor_command();

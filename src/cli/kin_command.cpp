@@ -2,6 +2,7 @@
 // standard input, one row (or `error: …`) per line of standard output. Every row stands alone: of
 // several solutions the one nearest to home is taken.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
@@ -162,6 +163,90 @@ bool open_kinematics(Job& job, const KinArguments& a) {
   return machine.has_value();
 }
 
+// ---- a grid of poses ---------------------------------------------------------------------------
+
+struct Range {
+  double from = 0, step = 0;
+  long count = 1;
+};
+
+// `FROM:TO:STEP` or one value, in the user's units.
+std::optional<Range> range_of(std::string_view text) {
+  std::array<double, 3> v{};
+  std::size_t n = 0;
+  for (bool more = true; more && n < 3; ++n) {
+    const std::size_t colon = text.find(':');
+    more = colon != text.npos;
+    const auto value = number_of(text.substr(0, colon));
+    if (!value) return std::nullopt;
+    v[n] = *value;
+    if (more) text.remove_prefix(colon + 1);
+    if (more && n == 2) return std::nullopt;
+  }
+  if (n == 1) return Range{v[0], 0, 1};
+  constexpr double most = 1e6;
+  const double steps = n == 3 ? (v[1] - v[0]) / v[2] : -1;
+  if (!(steps >= 0 && steps <= most)) return std::nullopt;
+  return Range{v[0], v[2], static_cast<long>(steps + 1e-9) + 1};
+}
+
+// The ranges by pose word, the others at home. Prints what is wrong.
+std::optional<std::vector<Range>> read_ranges(const Machine& machine, const KinArguments& a) {
+  const auto columns = pose_columns(machine);
+  const auto axes = pose_axes(machine);
+  std::vector<Range> ranges(columns.size());
+  if (const auto home = machine.kinematics().forward(machine.home(), {}))
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      ranges[i].from = (*home)[axes[i]] / columns[i].unit;
+  double rows = 1;
+  for (const std::string& text : a.ranges) {
+    const std::size_t equals = text.find('=');
+    const auto at = std::find_if(columns.begin(), columns.end(), [&](const Column& column) {
+      return column.name == text.substr(0, equals);
+    });
+    const auto range =
+        equals == text.npos ? std::nullopt : range_of(std::string_view(text).substr(equals + 1));
+    if (at == columns.end() || !range) {
+      print_error(make_error("usage", "'" + printable(text) +
+                                          "' is no WORD=FROM:TO:STEP (STEP leads "
+                                          "from FROM to TO) or WORD=VALUE with one of the words " +
+                                          names_of(columns)),
+                  a.color);
+      return std::nullopt;
+    }
+    ranges[static_cast<std::size_t>(at - columns.begin())] = *range;
+  }
+  for (const Range& range : ranges) rows *= static_cast<double>(range.count);
+  constexpr double most_rows = 1e7;
+  if (rows <= most_rows) return ranges;
+  print_error(make_error("usage", "the grid has more than 10 million rows"), a.color);
+  return std::nullopt;
+}
+
+// Every pose of the grid, the last word fastest: the pose, ` ; `, and its joints or why there are
+// none.
+int sweep(const Machine& machine, const KinArguments& a) {
+  const auto ranges = read_ranges(machine, a);
+  if (!ranges) return code(ExitCode::unknown);
+  std::vector<long> at(ranges->size(), 0);
+  bool good = true;
+  for (bool more = true; more;) {
+    Row row;
+    for (std::size_t i = 0; i < at.size(); ++i)
+      row.push_back((*ranges)[i].from + (*ranges)[i].step * static_cast<double>(at[i]));
+    const auto joints = inverse_row(machine, row);
+    good = good && joints.has_value();
+    std::printf("%s ; %s\n", text_of(row).c_str(),
+                joints ? text_of(*joints).c_str() : ("error: " + joints.error()).c_str());
+    more = false;
+    for (std::size_t i = at.size(); i-- > 0 && !more;) {
+      more = ++at[i] < (*ranges)[i].count;
+      if (!more) at[i] = 0;
+    }
+  }
+  return code(good ? ExitCode::pass : ExitCode::fail);
+}
+
 }  // namespace
 
 int kin_command(const KinArguments& a) {
@@ -171,6 +256,7 @@ int kin_command(const KinArguments& a) {
   const bool opened = open_kinematics(job, a);
   print_errors(job.diagnostics, a.color);
   if (!opened) return code(ExitCode::unknown);
+  if (a.action == Action::sweep) return sweep(*job.machine, a);
   const auto input = open_program(job.sources, "-");
   if (!input) {
     print_error(input.error(), a.color);
@@ -196,6 +282,7 @@ int kin_command(const KinArguments& a) {
         if (a.tool_vector) return vector_rows(machine, row).map(text_of_all);
         return inverse_row(machine, row).map(text_of);
       case Action::jac:
+      case Action::sweep:
       case Action::rot:
         break;
     }

@@ -13,16 +13,18 @@ int main(int argc, char** argv) {
   try {
     const auto parsed = parse(argc, argv);
     if (const int* answered = std::get_if<int>(&parsed)) return *answered;
-    const int outcome = std::visit(overloaded{
-                                       [](const RunArguments& a) { return run_command(a); },
-                                       [](const CheckArguments& a) { return check_command(a); },
-                                       [](const TraceArguments& a) { return trace_command(a); },
-                                       [](const MachineArguments& a) { return machine_command(a); },
-                                       [](const KinArguments& a) { return kin_command(a); },
-                                       [](const ExplainArguments& a) { return explain_command(a); },
-                                       [](const DoctorArguments&) { return doctor_command(); },
-                                   },
-                                   std::get<Arguments>(parsed));
+    const int outcome =
+        std::visit(overloaded{
+                       [](const RunArguments& a) { return run_command(a); },
+                       [](const CheckArguments& a) { return check_command(a); },
+                       [](const TraceArguments& a) { return trace_command(a); },
+                       [](const MachineArguments& a) { return machine_command(a); },
+                       [](const KinArguments& a) { return kin_command(a); },
+                       [](const WorkspaceArguments& a) { return workspace_command(a); },
+                       [](const ExplainArguments& a) { return explain_command(a); },
+                       [](const DoctorArguments&) { return doctor_command(); },
+                   },
+                   std::get<Arguments>(parsed));
     if (outcome == code(ExitCode::pass) && (std::fflush(stdout) != 0 || std::ferror(stdout))) {
       print_error(make_error("output_failed", "can't write to standard output"), When::automatic);
       return code(ExitCode::unknown);

@@ -299,6 +299,33 @@ TEST(Catalogue, LatheVerticalGivesTheNumbersOfTheVectors) {
   }
 }
 
+// Constant speeds of X, Z and C draw helices and spirals on the work; with the tool on the slide's
+// plane their closed forms are in the vectors.
+TEST(Catalogue, LatheVerticalDrawsTheCurvesOfConstantSpeeds) {
+  const auto lathe = of_type("lathe-vertical");
+  const auto file = vectors("lathe_vertical");
+  ASSERT_EQ(file.at("generated_curves").size(), 9u);
+  const double zero_x = 420 - 55, zero_z = 900 + 250 - 140 - 350 - 60;  // X, Z 0 on the work
+  for (const auto& v : file.at("generated_curves")) {
+    const auto joints_at = [&](double t) {
+      return joint_values({v.at("r0").get<double>() + v.at("w_x").get<double>() * t - zero_x,
+                           v.at("z0").get<double>() + v.at("w_z").get<double>() * t - zero_z,
+                           v.at("omega_rad_s").get<double>() * t});
+    };
+    const double t = v.at("t"), h = 1e-4;
+    const auto tip = lathe->forward(joints_at(t), {});
+    const auto before = lathe->forward(joints_at(t - h), {}),
+               after = lathe->forward(joints_at(t + h), {});
+    ASSERT_TRUE(tip && before && after);
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(place(*tip)[i], v.at("point")[static_cast<std::size_t>(i)].get<double>(), 1e-6)
+          << v;
+    EXPECT_NEAR((place(*after) - place(*before)).norm() / (2 * h), v.at("speed").get<double>(),
+                1e-5)
+        << v;
+  }
+}
+
 TEST(Catalogue, KeepsTheBranchInWhichItIs) {
   const auto all = catalogue();
   const Sample& scara = sample_of(all, "scara");

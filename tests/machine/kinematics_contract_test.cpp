@@ -82,7 +82,7 @@ TEST(KinematicsContract, RatesAreTheDerivativesOfInverse) {
       ASSERT_TRUE(sample.kinematics->rates({tip, {}}, q, d, dd, dq, ddq)) << sample.name;
       // Five points: the error is of the order h⁴.
       const auto q_at = [&](double s) -> JointVector {
-        return *sample.kinematics->inverse({at(tip, d, dd, s), {}}, near);
+        return *sample.kinematics->inverse({at(tip, d, dd, s), {}}, q);
       };
       const JointVector a2 = q_at(-2 * h), a1 = q_at(-h), b1 = q_at(h), b2 = q_at(2 * h);
       const JointVector first = (8 * (b1 - a1) - (b2 - a2)) / (12 * h);
@@ -113,7 +113,7 @@ Way random_way(const Sample& sample, Random& random, double size) {
   way.interval.low = way.interval.high = start;
   std::vector<double> before;
   AxisValues last;
-  constexpr int steps = 2000;
+  const int steps = sample.steps;
   for (int i = 0; i <= steps; ++i) {
     AxisValues tip;
     for (const Axis axis : all_axes) {
@@ -147,7 +147,7 @@ TEST(KinematicsContract, TravelBoundIsNeverLessThanTheTravelOfDenseSamples) {
       std::vector<double> bound(values_of(*sample.kinematics), -1);
       ASSERT_TRUE(sample.kinematics->travel_bound(way.interval, bound)) << sample.name;
       for (std::size_t k = 0; k < bound.size(); ++k)
-        ASSERT_GE(bound[k], way.travel[k] - 1e-9) << sample.name << ", value " << k;
+        ASSERT_GE(bound[k], way.travel[k] - sample.rounding) << sample.name << ", value " << k;
     }
   }
 }

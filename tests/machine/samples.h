@@ -25,7 +25,8 @@ struct Sample {
   /// How far a value may turn back within 0.01 mm, where its slope is zero.
   double turning = 1e-9;
 
-  int ways = 300;  ///< how many random ways its travel bounds are held against
+  int ways = 300, steps = 2000;  ///< how many random ways, and steps on each, bound its travel
+  double rounding = 1e-9;        ///< of a value's way over all steps
 
   JointVector start() const {
     return near.size() > 0 ? near : JointVector::Zero(kinematics->joint_count());
@@ -162,16 +163,16 @@ inline std::vector<Sample> catalogue() {
        xyz(-300, -150, 100), xyz(-40, 150, 400), joint_values({-500, 0, 0})},
       {"puma", of_type("puma"), five(250, 50, -250, 150, -25, -25),
        five(400, 250, -50, 178, 25, 25), joint_values({0, 0, -2.4, 0, 1, 0})},
-      {"three21", of_type("three21"), five(200, 50, 0, 150, -25, -25),
-       five(300, 150, 100, 178, 25, 25), joint_values({0, 0, -2.4, 0, 1, 0})},
+      {"three21", of_type("three21"), five(260, 60, 140, 150, -15, -25),
+       five(330, 140, 220, 165, 15, 25), joint_values({0, -1, 0.4, 0, 1, 0})},
       {"serial", of_type("serial"), five(250, 50, -250, -25, -25, -25),
        five(400, 250, -50, 25, 25, 25), joint_values({0.4, -1, 0.4, 0.1, 0.7, 0.1})},
       {"serial, five joints",
-       of_type("serial", {"dh = [[0, 0, 0, 0], [0, 0, 0, -90], [0, 0, 300, 0], [0, 0, 400, 0], [0, "
-                          "0, 0, -90]]",
-                          "convention = \"modified\""}),
-       five(300, 50, -250, -20, -20), five(450, 150, -100, 20, 20),
-       joint_values({0.2, -1.4, 1.6, 0, 0})},
+       of_type("serial", {"dh = [[0, 0, 0, 0], [0, 0, 0, -90], [0, 70, 300, 0], [0, 400, 50, -90], "
+                          "[0, 0, 0, 90]]",
+                          "convention = \"modified\"", "tool = [0, 70, 0, 90, 0, 0]"}),
+       five(250, 50, -250, -25, -25), five(400, 250, -50, 25, 25),
+       joint_values({0.4, -1, 0.4, 0.1, 0.7})},
       {"serial, with a slide",
        of_type("serial", {"dh = [[0, 490, 340, 0], [0, 0, 250, 180], [0, 0, 0, 0]]",
                           "kinds = \"RRT\"", "convention = \"standard\""}),
@@ -197,7 +198,9 @@ inline std::vector<Sample> catalogue() {
   };
   for (Sample& sample : all) {
     sample.turning = turns;
-    sample.ways = 25;
+    sample.ways = 8;
+    sample.steps = 400;
+    sample.rounding = 1e-8;
     sample.bounded = sample.kinematics->type() != "serial";
     sample.tools = sample.kinematics->type() != "scorbot";
   }

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace aircut::machine {
 
@@ -282,6 +283,9 @@ class Parser {
         fail("the axis " + p->couple.axis + " stands twice; give each its own number", p->column);
       used.push_back(p->couple.axis);
     }
+    std::map<char, int> unnamed;
+    for (const Placed* p : all)
+      if (!p->own_axis && !p->couple.axis.empty()) ++unnamed[p->couple.axis[0]];
     for (Placed* p : all) {
       FormulaCouple& couple = p->couple;
       if (p->own_axis || couple.axis.empty()) continue;
@@ -293,16 +297,12 @@ class Parser {
         return;
       }
       const std::string letter = couple.axis.substr(0, 1);
-      const auto alike = std::count_if(all.begin(), all.end(), [&](const Placed* other) {
-        return !other->own_axis && other->couple.axis.substr(0, 1) == letter;
-      });
       const std::string number = couple.element.substr(couple.kind().size());
       if (!number.empty()) couple.axis = letter + number;
       int next = 1;
-      if (alike > 1 && number.empty()) couple.axis = letter + "1";
+      if (unnamed[couple.axis[0]] > 1 && number.empty()) couple.axis = letter + "1";
       while (is_used(couple.axis)) couple.axis = letter + std::to_string(next++);
       used.push_back(couple.axis);
-      p->own_axis = true;
     }
   }
 

@@ -211,6 +211,9 @@ class Package {
         else
           work_link_ = link;
       }
+      if (couple.rotary && &couple != &branch.back())
+        add_body("carrier-" + lower(couple.element), link,
+                 transformed(revolve({{60, -128}, {60, -122}}, 0.05), X), "#9aa1a6");
       if (couple.rotary) continue;
       add_body("work-slide-" + lower(couple.element), link,
                transformed(make_box(Vec3(-120, -120, back - 100), Vec3(120, 120, back)), X),
@@ -245,8 +248,11 @@ class Package {
       if (!driven(couple)) continue;
       const bool radial = couple.axis[0] == 'X' || couple.axis[0] == 'U';
       link = add_axis(couple, link, Vec3(0, place.y, gauge_z), radial ? side : 1, 1);
-      if (couple.rotary) continue;
       const double y = layer_y(i, branch);
+      if (couple.rotary && i + 1 < branch.size())
+        add_body("carrier-" + lower(couple.element), link, box(-30, 30, y, y + 40, 60, 120),
+                 "#9aa1a6");
+      if (couple.rotary) continue;
       add_body("slide-" + lower(couple.element), link,
                radial ? box(-40, 300, y, y + 40, 30, 150) : box(100, 420, y, y + 40, 20, 260),
                radial ? "#8d9aa1" : "#7d8f99");

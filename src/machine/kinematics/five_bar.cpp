@@ -108,6 +108,8 @@ struct FiveBar : BasicModel {
     P += gauge - tool;
     AxisValues out;
     for (int i = 0; i < 3; ++i) out[all_axes[static_cast<std::size_t>(i)]] = P[i];
+    if (auto error = why_not({P.x(), P.y(), P.z()}, tool, 0))
+      return unexpected(ReachError{std::move(*error)});
     return out;
   }
 };

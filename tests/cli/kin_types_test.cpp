@@ -1,0 +1,113 @@
+// Kinematics without a package, new packages and workspaces through the command line.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "kin_program.h"
+
+namespace aircut {
+namespace {
+
+class KinTypes : public Kin {
+ protected:
+  Outcome run(const std::string& arguments) const {
+    const std::string command =
+        "cd " + folder_.string() + " && timeout 120 " AIRCUT_BINARY_DIR "/bin/aircut " + arguments +
+        " >" + (folder_ / "out").string() + " 2>" + (folder_ / "err").string();
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of("out"), text_of("err")};
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name, std::ios::binary) << text;
+  }
+};
+
+TEST_F(KinTypes, AnswerWithoutAPackage) {
+  const Outcome ik = kin("ik --type delta-linear --param radius=120 --param rod=250", "0 0 -150\n");
+  EXPECT_EQ(ik.code, 0) << ik.err;
+  const double height = -150 + std::sqrt(250.0 * 250 - 120.0 * 120);
+  for (const double q : rows_of(ik.out).at(0)) EXPECT_NEAR(q, height, 1e-8);
+  const Outcome fk = kin("fk --type delta-linear --param radius=120 --param rod=250", ik.out);
+  EXPECT_NEAR(rows_of(fk.out).at(0).at(2), -150, 1e-8) << fk.out;
+  const Outcome jac = kin("jac --type corexy", "1 2 3\n");
+  EXPECT_EQ(jac.out, "1 1 0 1 -1 0 0 0 1\n");
+  EXPECT_EQ(kin("ik --type delta-linear", "900 0 0\n").code, 1);
+}
+
+TEST_F(KinTypes, SayWhatIsWrongWithThem) {
+  const Outcome name = kin("ik --type hexpod", "1 2 3\n");
+  EXPECT_EQ(name.code, 2);
+  EXPECT_NE(name.err.find("Did you mean 'hexapod'?"), std::string::npos) << name.err;
+  const Outcome key = kin("ik --type scara --param l3=5", "1 2 3 4\n");
+  EXPECT_EQ(key.code, 2);
+  EXPECT_NE(key.err.find("l3"), std::string::npos) << key.err;
+  EXPECT_EQ(kin("ik --type scara -m mill3", "1 2 3\n").code, 2);
+  EXPECT_EQ(kin("ik --param l1=5", "1 2 3\n").code, 2);
+}
+
+TEST_F(KinTypes, SweepGivesTheGridWithTheLastWordFastest) {
+  const Outcome r = kin("sweep -m mill3 X=0:20:10 Y=5 Z=-600:-100:500", "");
+  EXPECT_EQ(r.code, 1) << r.err;
+  EXPECT_EQ(r.out,
+            "0 5 -600 ; error: joint Z would be at -600, its limit is -400\n"
+            "0 5 -100 ; 0 5 -100\n"
+            "10 5 -600 ; error: joint Z would be at -600, its limit is -400\n"
+            "10 5 -100 ; 10 5 -100\n"
+            "20 5 -600 ; error: joint Z would be at -600, its limit is -400\n"
+            "20 5 -100 ; 20 5 -100\n");
+  for (const char* bad : {"Q=1", "X=1:2", "X=2:1:1", "X=0:1:0", "X", "X=0:1e9:1e-9", "X=1:2:3:4"})
+    EXPECT_EQ(kin(std::string("sweep -m mill3 ") + bad, "").code, 2) << bad;
+}
+
+TEST_F(KinTypes, WorkspaceTellsWhatAMachineReaches) {
+  const std::string root = AIRCUT_SOURCE_DIR "/machines/";
+  const Outcome glide =
+      run("workspace -m " + root + "ox-glide-crossed --x 0:600 --y 0 --z=-380:-74 --pitch 2");
+  EXPECT_EQ(glide.code, 0) << glide.err;
+  EXPECT_NE(glide.out.find("300 x 1 x 153 cells"), std::string::npos) << glide.out;
+  EXPECT_NE(glide.out.find("joint S1 beyond its travel"), std::string::npos) << glide.out;
+  EXPECT_EQ(run("workspace -m " + root + "ox-glide-crossed --x 5:1").code, 2);
+  EXPECT_EQ(run("workspace -m " + root + "mill3 --tilt-a 0:5").code, 2);
+  EXPECT_EQ(run("workspace -m " + root + "mill3 --pitch 0.05").code, 2);
+}
+
+TEST_F(KinTypes, ANewPackageIsRunAtOnce) {
+  write("part.ngc", "G21 G90\nG0 X100 Z-50\nG1 X40 F500\nZ-200\nG0 X100\nM30\n");
+  const Outcome made = run("machine new --formula 'R(MS:C)-O-T(LS:Z)-T(TS:X)' lathe");
+  ASSERT_EQ(made.code, 0) << made.err;
+  EXPECT_NE(made.out.find("R(MS:C)-O-T(LS:Z)-T(TS:X)"), std::string::npos);
+  const Outcome check = run("machine check ./lathe");
+  EXPECT_EQ(check.code, 0) << check.out;
+  EXPECT_NE(check.out.find("lathe: 0 problems"), std::string::npos) << check.out;
+  const Outcome part = run("run -m ./lathe part.ngc");
+  EXPECT_EQ(part.code, 0) << part.out << part.err;
+  EXPECT_EQ(run("machine new --formula 'R(MS:C)-O-T(LS:Z)-T(TS:X)' lathe").code, 2);
+  const Outcome bad = run("machine new --formula 'R(MS)-O-T(QQ)' other");
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_NE(bad.err.find(":1:11"), std::string::npos) << bad.err;
+  EXPECT_FALSE(fs::exists(folder_ / "other"));
+}
+
+// Without proven travel bounds nothing may pass.
+TEST_F(KinTypes, ARunOnANumericArmIsUnknown) {
+  fs::create_directory(folder_ / "arm");
+  std::string toml =
+      "schema = 1\nname = \"arm\"\n[kinematics]\ntype = \"serial\"\nkinds = \"RRT\"\n"
+      "convention = \"standard\"\ndh = [[0, 490, 340, 0], [0, 0, 250, 0], [0, 0, 0, 0]]\n"
+      "tool = [0, 0, 0, 0, 0, 0]\n[spindle]\nlink = \"q\"\ngauge = [590, 0, 490]\n";
+  const auto axis = [&](const char* name, const char* parent, const std::string& rest) {
+    toml += std::string("[[axis]]\nname = \"") + name + "\"\nchild = \"" + name +
+            "\"\nparent = \"" + parent + "\"\ndirection = [0, 0, 1]\nvmax = 100\namax = 500\n" +
+            rest;
+  };
+  axis("a", "bed", "kind = \"rotary\"\norigin = [0, 0, 0]\nmin = -170\nmax = 170\n");
+  axis("b", "a", "kind = \"rotary\"\norigin = [340, 0, 0]\nmin = 10\nmax = 150\nhome = 60\n");
+  axis("q", "b", "kind = \"linear\"\nmin = -400\nmax = 0\n");
+  write("arm/machine.toml", toml);
+  write("part.ngc", "G21 G90\nG1 X350 Y300 Z400 F2000\nX300\nM30\n");
+  const Outcome r = run("run -m ./arm part.ngc");
+  EXPECT_EQ(r.code, 2) << r.out << r.err;
+}
+
+}  // namespace
+}  // namespace aircut
