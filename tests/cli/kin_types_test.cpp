@@ -88,25 +88,59 @@ TEST_F(KinTypes, ANewPackageIsRunAtOnce) {
   EXPECT_FALSE(fs::exists(folder_ / "other"));
 }
 
+/// Packages written here take their meshes from a new one.
+std::string axis_toml(const std::string& name, const std::string& parent, const std::string& rest) {
+  return "[[axis]]\nname = \"" + name + "\"\nchild = \"" + name + "\"\nparent = \"" + parent +
+         "\"\n" + rest + "\n";
+}
+const char* const two_bodies =
+    "[[body]]\nlink = \"bed\"\nmesh = \"meshes/bed.stl\"\n"
+    "[[body]]\nlink = \"tool\"\nrole = \"spindle\"\nmesh = \"meshes/turret.stl\"\n";
+const std::string limits = "vmax = 200\namax = 2000\n";
+
 // Without proven travel bounds nothing may pass.
 TEST_F(KinTypes, ARunOnANumericArmIsUnknown) {
-  fs::create_directory(folder_ / "arm");
-  std::string toml =
-      "schema = 1\nname = \"arm\"\n[kinematics]\ntype = \"serial\"\nkinds = \"RRT\"\n"
-      "convention = \"standard\"\ndh = [[0, 490, 340, 0], [0, 0, 250, 0], [0, 0, 0, 0]]\n"
-      "tool = [0, 0, 0, 0, 0, 0]\n[spindle]\nlink = \"q\"\ngauge = [590, 0, 490]\n";
-  const auto axis = [&](const char* name, const char* parent, const std::string& rest) {
-    toml += std::string("[[axis]]\nname = \"") + name + "\"\nchild = \"" + name +
-            "\"\nparent = \"" + parent + "\"\ndirection = [0, 0, 1]\nvmax = 100\namax = 500\n" +
-            rest;
-  };
-  axis("a", "bed", "kind = \"rotary\"\norigin = [0, 0, 0]\nmin = -170\nmax = 170\n");
-  axis("b", "a", "kind = \"rotary\"\norigin = [340, 0, 0]\nmin = 10\nmax = 150\nhome = 60\n");
-  axis("q", "b", "kind = \"linear\"\nmin = -400\nmax = 0\n");
-  write("arm/machine.toml", toml);
-  write("part.ngc", "G21 G90\nG1 X350 Y300 Z400 F2000\nX300\nM30\n");
+  ASSERT_EQ(run("machine new --formula 'R(MS:C)-O-T(LS:Z)-T(TS:X)' arm").code, 0);
+  const std::string up = "direction = [0, 0, 1]\n" + limits;
+  write("arm/machine.toml",
+        "schema = 1\nname = \"arm\"\n[kinematics]\ntype = \"serial\"\nkinds = \"RRT\"\n"
+        "convention = \"standard\"\ndh = [[0, 490, 340, 0], [0, 0, 250, 0], [0, 0, 0, 0]]\n"
+        "tool = [0, 0, 0, 0, 0, 0]\n[spindle]\nlink = \"tool\"\ngauge = [590, 0, 490]\n" +
+            axis_toml("a", "bed",
+                      up + "kind = \"rotary\"\norigin = [0, 0, 0]\nmin = -170\nmax = 170") +
+            axis_toml(
+                "b", "a",
+                up + "kind = \"rotary\"\norigin = [340, 0, 0]\nmin = 10\nmax = 150\nhome = 60") +
+            axis_toml("tool", "b", up + "kind = \"linear\"\nmin = -400\nmax = 0") + two_bodies);
+  write("part.ngc", "G21 G90\nM3 S100\nG1 X350 Y300 Z400 F2000\nX300\nM30\n");
   const Outcome r = run("run -m ./arm part.ngc");
   EXPECT_EQ(r.code, 2) << r.out << r.err;
+  EXPECT_NE((r.out + r.err).find("can't be bounded"), std::string::npos) << r.out << r.err;
+}
+
+// A delta by its type: proven clear over the whole program.
+TEST_F(KinTypes, ARunOnADeltaPasses) {
+  ASSERT_EQ(run("machine new --formula 'R(MS:C)-O-T(LS:Z)-T(TS:X)' delta").code, 0);
+  std::string toml =
+      "schema = 1\nname = \"delta\"\n[kinematics]\ntype = \"delta-linear\"\n[spindle]\n"
+      "link = \"tool\"\ngauge = [0, 0, 0]\n";
+  for (const char* name : {"S1", "S2", "S3"})
+    toml += axis_toml(name, "bed",
+                      limits +
+                          "kind = \"linear\"\ndirection = [0, 0, 1]\nmin = 80\n"
+                          "max = 400\nhome = 235.367");
+  toml +=
+      axis_toml("px", "bed", "kind = \"linear\"\ndirection = [1, 0, 0]\npassive = \"platform_x\"");
+  toml +=
+      axis_toml("py", "px", "kind = \"linear\"\ndirection = [0, 1, 0]\npassive = \"platform_y\"");
+  toml +=
+      axis_toml("tool", "py", "kind = \"linear\"\ndirection = [0, 0, 1]\npassive = \"platform_z\"");
+  write("delta/machine.toml", toml + two_bodies);
+  write("part.ngc",
+        "G21 G90\nM3 S100\nG1 X30 Y20 Z-40 F3000\nG2 X-30 Y20 I-30 J-20\nG1 Z20\nX0 Y0 Z0\nM30\n");
+  const Outcome r = run("run -m ./delta part.ngc");
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  EXPECT_NE(r.out.find("100 % proven clear"), std::string::npos) << r.out;
 }
 
 }  // namespace

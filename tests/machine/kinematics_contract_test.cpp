@@ -88,7 +88,9 @@ TEST(KinematicsContract, RatesAreTheDerivativesOfInverse) {
       const JointVector first = (8 * (b1 - a1) - (b2 - a2)) / (12 * h);
       const JointVector second = (16 * (b1 + a1) - (b2 + a2) - 30 * q) / (12 * h * h);
       ASSERT_LE((dq - first).cwiseAbs().maxCoeff(), 1e-6) << sample.name;
-      ASSERT_LE((ddq - second).cwiseAbs().maxCoeff(), 1e-5) << sample.name;
+      // A numeric inverse ends within 1e-9 mm; over h² that is more than the differences' own
+      // error.
+      ASSERT_LE((ddq - second).cwiseAbs().maxCoeff(), sample.bounded ? 1e-5 : 1e-4) << sample.name;
     }
   }
 }

@@ -86,8 +86,9 @@ bool check_kinds(KinematicsInput& input, const std::string& key, const std::vect
     const std::string name(1, letter(axes[i]));
     if (std::count(axes.begin(), axes.end(), axes[i]) > 1 &&
         std::find(axes.begin(), axes.end(), axes[i]) == axes.begin() + static_cast<long>(i)) {
-      input.table.error(key, "two joints for axis " + name +
-                                 " (a gantry) are not supported; each letter may stand once");
+      input.table.error(key,
+                        "two joints for axis " + name +
+                            " need type = \"gantry\"; with 'identity' each letter stands once");
       good = false;
     }
     const bool rotary = input.driven[i].kind == JointKind::rotary;
