@@ -76,7 +76,8 @@ TEST(KinematicsContract, RatesAreTheDerivativesOfInverse) {
           dd[axis] = random.between(-1, 1);
         }
       JointVector dq, ddq;
-      constexpr double h = 1e-3;
+      // A numeric inverse ends within 1e-9 mm, which is too much over the square of a small step.
+      const double h = sample.bounded ? 1e-3 : 1e-2;
       const JointVector near = sample.start();
       const JointVector q = *sample.kinematics->inverse({tip, {}}, near);
       ASSERT_TRUE(sample.kinematics->rates({tip, {}}, q, d, dd, dq, ddq)) << sample.name;
