@@ -79,4 +79,19 @@ struct Roughing {
 std::optional<std::vector<CutterMove>> rough(const Contour& contour, const Roughing& options,
                                              std::size_t max_moves, std::string& problem);
 
+struct PocketRoughing {
+  PlanePoint start;         ///< the first level lies `depth` below it; outside of the stock
+  double depth = 1;         ///< of a pass, > 0
+  double escape = 0;        ///< way up out of the cut, >= 0
+  bool rapid_down = false;  ///< to depth at the start point
+  std::size_t max_moves = 1'000'000;
+};
+
+/// Type II of Fanuc's G71 and G72: a contour that may dip, but does not go back along u. The last
+/// move ends above the contour at the start's level or higher. Nothing with a message when there
+/// would be more moves than the limit.
+std::optional<std::vector<CutterMove>> rough_pockets(const Contour& contour,
+                                                     const PocketRoughing& options,
+                                                     std::string& problem);
+
 }  // namespace aircut::interp

@@ -75,6 +75,8 @@ void ContourReader::read(BlockRun& run) {
   if (const auto z = run.axis(Axis::z)) end.u = state.incremental ? start.u + *z : *z;
   if (run.has('U')) end.v = start.v + run.length('U') * (state.lathe_diameter ? 0.5 : 1);
   if (run.has('W')) end.u = start.u + run.length('W');
+  if (contour_.empty())
+    first_names_both_ = (run.has('X') || run.has('U')) && (run.has('Z') || run.has('W'));
   if (angle && !place_by_angle(run, *angle, start, end)) return;
   if (!angle && open_angle_)
     return run.error("corner_error", run.whole(),

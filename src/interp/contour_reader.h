@@ -21,6 +21,8 @@ class ContourReader {
 
   /// The first piece is the way from the start point to the first point.
   const Contour& contour() const { return contour_; }
+  /// Whether the first block leads along both axes: type II of G71 and G72.
+  bool first_names_both() const { return first_names_both_; }
   /// Line of the program that a piece comes from.
   std::uint64_t line_of(std::size_t piece) const;
 
@@ -32,6 +34,7 @@ class ContourReader {
   std::vector<CornerRequest> corners_;  ///< at the end of each piece
   std::optional<double> open_angle_;    ///< the last piece ends where it meets the next one
   std::vector<std::uint64_t> lines_;
+  bool first_names_both_ = false;
   double feed_ = 0;  ///< of the last F word, mm/min or mm/rev as programmed, 0 without
 };
 

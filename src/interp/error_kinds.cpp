@@ -129,6 +129,11 @@ const std::vector<KindText>& error_kinds() {
        "the "
        "plane, the work system and the reference points can't be used, and an arc needs the same "
        "factor for both axes. Example: `G68 X0 Y0 R30` and then `G55`."},
+      {"frame_left_on", "rotation, scaling, mirror image or G16 left on",
+       "Warning. G68, G51, G51.1 or G16 is on at a tool change or at the end of the program. "
+       "Whether the end takes it back is a parameter of the control; the next tool or program may "
+       "run turned or mirrored. Give G69, G50, G50.1 or G15 before. Example: `G68 X0 Y0 R30.`, "
+       "`M30`."},
       {"g10_error", "G10 with words that do not belong together",
        "L2 and L20 set work systems (P0-P9, no I J), L1, L10 and L11 tools. Example: `G10 L2 P12 "
        "X0`."},

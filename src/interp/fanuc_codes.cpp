@@ -137,7 +137,7 @@ constexpr CodeRule mill[] = {
     {'G', 950, G::feed_mode,     P::feed_mode,     none,   "",      feed_mode},
     {'G', 980, G::retract,       P::retract,       none,   "",      retract_mode},
     {'G', 990, G::retract,       P::retract,       none,   "",      retract_mode},
-    {'M',   6, G::tool,          P::tool_change,   none,   "",      change_tool},
+    {'M',   6, G::tool,          P::tool_change,   none,   "",      fanuc_change_tool},
 };
 
 constexpr CodeRule lathe[] = {

@@ -49,8 +49,8 @@ constexpr CodeRule lathe[] = {
 };
 
 constexpr CodeRule haas_mill[] = {
-    {'G', 120, G::non_modal,     P::non_modal,     own,    "DIKQL",   nullptr},
-    {'G', 130, G::non_modal,     P::non_modal,     own,    "DIKQL",   nullptr},
+    {'G', 120, G::non_modal,     P::non_modal,     own,    "DIKQL",   circular_pocket},
+    {'G', 130, G::non_modal,     P::non_modal,     own,    "DIKQL",   circular_pocket},
     {'G', 700, G::non_modal,     P::non_modal,     own,    "IJL",     hole_pattern},
     {'G', 710, G::non_modal,     P::non_modal,     own,    "IJKL",    hole_pattern},
     {'G', 720, G::non_modal,     P::non_modal,     own,    "IJL",     hole_pattern},
@@ -59,7 +59,7 @@ constexpr CodeRule haas_mill[] = {
     {'G', 770, G::motion,        P::motion,        motion, "RQPLIJ",  fanuc_cycle},
     {'G', 830, G::motion,        P::motion,        motion, "RQPLIJK", fanuc_cycle},
     {'G', 840, G::motion,        P::motion,        motion, "RLJ",     fanuc_cycle},
-    {'G', 1500, G::non_modal,    P::non_modal,     own,    "PQRIJKDL", nullptr},
+    {'G', 1500, G::non_modal,    P::non_modal,     own,    "PQRIJKDL", general_pocket},
     {'G', 1840, G::motion,       P::motion,        motion, "RLJ",     fanuc_cycle},
 };
 // clang-format on

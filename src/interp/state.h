@@ -50,6 +50,7 @@ struct TurningState {
   double groove_escape = 0;                                         ///< G74 G75
   double thread_least = 0, thread_allowance = 0, thread_angle = 0;  ///< G76
   int thread_finishing = 1;
+  int thread_chamfer = 0;  ///< tenths of the lead
 };
 
 /// Control point that a G5 without I J reflects.

@@ -234,7 +234,7 @@ TEST(FanucCodes, AreRefusedWhenTheyMoveAndAreNotModelled) {
                            "G51.2", "G45 X1.", "G2.1", "G68 X0 Y0 Z0 I0 J0 K1. R30."})
     EXPECT_EQ(kinds_of(line, fanuc, Severity::error), std::vector<std::string>{"unsupported_code"})
         << line;
-  for (const char* line : {"G47 P0", "G12 I5. D1", "G13 I5. D1", "G150", "G234", "G254", "G143"})
+  for (const char* line : {"G47 P0", "G150", "G234", "G254", "G143"})
     EXPECT_EQ(kinds_of(line, haas, Severity::error), std::vector<std::string>{"unsupported_code"})
         << line;
   EXPECT_EQ(kinds_of("G68 X0 Z0 R30.", fanuc_lathe, Severity::error),

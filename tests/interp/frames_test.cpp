@@ -183,7 +183,7 @@ TEST(Frames, RotationWithoutACentreTurnsAboutTheTool) {
 }
 
 TEST(Frames, TheFirstMoveTakesTheOtherAxisFromBeforeTheRotation) {
-  const Ran ran = run("G0 X10. Y10. Z0\nG68 X0 Y0 R45.\nG1 Y14.142136 F100\nM30\n");
+  const Ran ran = run("G0 X10. Y10. Z0\nG68 X0 Y0 R45.\nG1 Y14.142136 F100\nG69\nM30\n");
   const AxisValues tip = end_tip(ran);
   const Vec3 want = mapped(turned(2, 45), {10, 14.142136, 0});
   expect_near({tip[Axis::x], tip[Axis::y], tip[Axis::z]}, want, "one axis");

@@ -28,6 +28,9 @@ void fanuc_cycle(const CodeRule&, BlockRun&);
 void manual_cycle(const CodeRule&, BlockRun&);
 void rigid_tapping(const CodeRule&, BlockRun&);
 void hole_pattern(const CodeRule&, BlockRun&);
+// haas_pockets.cpp
+void circular_pocket(const CodeRule&, BlockRun&);
+void general_pocket(const CodeRule&, BlockRun&);
 // lathe_single.cpp
 void single_pass(const CodeRule&, BlockRun&);
 void lathe_thread(const CodeRule&, BlockRun&);
@@ -75,6 +78,7 @@ void data_end(const CodeRule&, BlockRun&);
 // fanuc_tools.cpp
 void fanuc_length_offset(const CodeRule&, BlockRun&);
 void fanuc_radius_comp(const CodeRule&, BlockRun&);
+void fanuc_change_tool(const CodeRule&, BlockRun&);
 // fanuc_reference.cpp
 void fanuc_machine_coordinates(const CodeRule&, BlockRun&);
 void fanuc_home(const CodeRule&, BlockRun&);
@@ -196,7 +200,9 @@ bool first_move_in_frame(BlockRun& run, AxisSet named, AxisValues& program);
 bool frame_allows_cycle(BlockRun& run, const CodeRule& rule);
 /// True when the letter's word on this line is a mere number: Q of G10 (an orientation) and G5.1.
 bool is_plain_number(const BlockRun& run, char letter);
-/// Takes back mirror image, scaling and rotation (M30).
+/// A warning when a frame or G16 is on at this code (M6, M30).
+void tell_frames_left_on(const CodeRule& rule, BlockRun& run);
+/// Takes back mirror image, scaling, rotation and polar coordinates (M30).
 void reset_frames(BlockRun& run);
 /// True when no frame of the program acts on these axes; else the error is recorded.
 bool frame_allows(BlockRun& run, const CodeRule& rule, AxisSet axes);

@@ -78,6 +78,7 @@ void fanuc_end(const CodeRule& rule, BlockRun& run) {
   ModalState& state = run.state;
   run.session.compensator.flush(run);
   state.comp = CompState{};
+  tell_frames_left_on(rule, run);
   reset_frames(run);
   if (!(state.local_shift == AxisValues{})) {
     state.g92 -= state.local_shift;

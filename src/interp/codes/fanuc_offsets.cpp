@@ -133,7 +133,7 @@ void local_shift(const CodeRule& rule, BlockRun& run) {
 }
 
 // G92: the point where the tool stands gets the coordinates of the words, in all work systems; the
-// local shift of these axes ends.
+// local shift of these axes ends. U V W of lathes (G50) add to the coordinates.
 void coordinate_shift(const CodeRule& rule, BlockRun& run) {
   if (!comp_is_off(run, rule) || !no_frame(run, rule)) return;
   if (!run.has_axis_words())
@@ -141,6 +141,7 @@ void coordinate_shift(const CodeRule& rule, BlockRun& run) {
   ModalState& state = run.state;
   const AxisValues program = to_program(state, state.tip);
   for (const Axis axis : all_axes) {
+    if (const auto by = run.increment(axis)) state.g92[axis] -= *by;
     const auto value = run.axis(axis);
     if (!value) continue;
     state.g92[axis] += program[axis] - *value;

@@ -71,6 +71,25 @@ void fanuc_length_offset(const CodeRule& rule, BlockRun& run) {
   take_length_offset(run, offset, *h);
 }
 
+namespace {
+
+// D is a row of offsets; one that is named after another tool, with another radius, is doubtful.
+void judge_radius_row(BlockRun& run, int number, double radius) {
+  const int tool = run.state.tool;
+  const auto& offsets = run.session.offsets;
+  if (!run.has('D') || tool == 0 || number == tool || run.session.table.lathe()) return;
+  const ToolOffset* own = offsets.tool(tool);
+  if (!own || !run.session.tools.find(number) || own->whole_radius() == radius) return;
+  run.warning("wrong_offset", run.place('D'),
+              "the offset D" + std::to_string(number) + " has the radius " + fixed(radius, 4) +
+                  " mm, that of tool " + std::to_string(tool) + " in the spindle " +
+                  fixed(own->whole_radius(), 4) +
+                  " mm, and there is a tool of that number; give D" + std::to_string(tool) +
+                  " if that is meant");
+}
+
+}  // namespace
+
 void fanuc_radius_comp(const CodeRule& rule, BlockRun& run) {
   ModalState& state = run.state;
   if (state.comp.side != CompSide::off) {
@@ -96,10 +115,16 @@ void fanuc_radius_comp(const CodeRule& rule, BlockRun& run) {
         row_of(run, state.offset_number, run.has('D') ? run.place('D') : run.place(rule));
     if (!row) return;
     radius = row->whole_radius();
+    judge_radius_row(run, state.offset_number, radius);
     if (run.session.table.lathe()) orientation = row->orientation;
   }
   const CompSide side = rule.code == 410 ? CompSide::left : CompSide::right;
   start_compensation(rule, run, side, radius, orientation);
+}
+
+void fanuc_change_tool(const CodeRule& rule, BlockRun& run) {
+  tell_frames_left_on(rule, run);
+  change_tool(rule, run);
 }
 
 // T0103: tool 1 with offset 3; T0100 takes the offset away. There is no M6.

@@ -199,11 +199,28 @@ void rotation_off(const CodeRule& rule, BlockRun& run) {
 
 void reset_frames(BlockRun& run) {
   ModalState& state = run.state;
+  state.polar = PolarState{};
   if (state.frame.active()) {
     state.frame = ProgramFrame{};
     frame_changed(run);
   }
   state.turn_is_fresh = state.turn_was_left = false;
+}
+
+void tell_frames_left_on(const CodeRule& rule, BlockRun& run) {
+  const ProgramFrame& frame = run.state.frame;
+  std::string on;
+  const auto add = [&](bool is_on, const char* what) {
+    if (is_on) on += std::string(on.empty() ? "" : ", ") + what;
+  };
+  add(frame.any_mirror(), "mirror image (G51.1)");
+  add(frame.scaled, "scaling (G51)");
+  add(frame.turned, "rotation (G68)");
+  add(run.state.polar.on, "polar coordinates (G16)");
+  if (on.empty()) return;
+  run.warning("frame_left_on", run.place(rule),
+              on + " still on at this " + name_of(rule) +
+                  ": whether it is taken back depends on the control; take it back before");
 }
 
 // Behind G68 the control takes a coordinate of the plane that the first absolute move does not name

@@ -95,6 +95,7 @@ void Grooving::peck(double aside, double start, double end, double step) {
 struct ThreadWords {
   double height = 0, first = 0, least = 0, finish = 0, taper = 0, angle = 0;
   int finishing = 1;
+  double chamfer = 0;  ///< at the end, leads
 };
 
 // `G76 P Q R` and then `G76 X Z R P Q F`, or all in one line with K, D and A.
@@ -105,12 +106,13 @@ std::optional<ThreadWords> thread_words(const CodeRule& rule, BlockRun& run) {
   words.finish = kept.thread_allowance;
   words.angle = kept.thread_angle;
   words.finishing = kept.thread_finishing;
+  words.chamfer = kept.thread_chamfer / 10.0;
   const bool one_line = run.has('K');
   words.height = one_line ? run.length('K') : increments(run, 'P');
   words.first = increments(run, one_line ? 'D' : 'Q');
   words.taper = run.length(one_line ? 'I' : 'R');
   if (one_line) words.angle = run.number_or('A', 0) * radian_per_degree;
-  if (one_line) words.finish = 0;
+  if (one_line) words.finish = words.chamfer = 0;
   const auto fail = [&](const char* kind, Place place, const char* text) {
     run.error(kind, place, text);
     return std::nullopt;
@@ -160,7 +162,8 @@ void cut_thread(const CodeRule& rule, BlockRun& run) {
     return run.error("thread_error", run.has('Z') ? 'Z' : 'W', "the thread has no length");
   const double outwards = start.v > root.v ? 1 : -1;
   const double along = std::max(std::fabs(dz), std::fabs(words->taper));
-  const double lead = run.state.feed * run.state.unit_mm() * std::hypot(dz, words->taper) / along;
+  const double pitch = run.state.feed * run.state.unit_mm();
+  const double lead = pitch * std::hypot(dz, words->taper) / along;
   const auto depths = thread_depths(*words);
   if (depths.empty())
     return run.error("limit_reached", rule, "more than 20000 passes; use a larger first depth");
@@ -171,7 +174,15 @@ void cut_thread(const CodeRule& rule, BlockRun& run) {
     const PlanePoint begin{start.u + along_flank, root.v + words->taper + above};
     motion.rapid({begin.u, start.v}, "start of a pass");
     motion.rapid(begin, "to depth");
-    motion.thread({root.u, root.v + above}, lead, 0, "thread");
+    // The chamfer at the end leaves the thread at 45 degrees, turning on with the spindle.
+    const double slope = -words->taper / (root.u - begin.u);
+    const double out = std::min(
+        {words->chamfer * pitch, std::fabs(root.u - begin.u), std::fabs(start.v - root.v - above)});
+    const double last = root.u - (dz < 0 ? -out : out);
+    const double bottom = root.v + above + slope * (last - root.u);
+    motion.thread({last, bottom}, lead, 0, "thread");
+    if (out > 0)
+      motion.thread({root.u, bottom + outwards * out}, pitch * std::sqrt(2), 0, "chamfer");
     motion.rapid({root.u, start.v}, "out");
     motion.rapid(start, "back");
   }
@@ -184,6 +195,7 @@ void keep_thread_words(BlockRun& run) {
     const auto p = run.integer('P', 0, 999'999);
     if (!p) return;
     kept.thread_finishing = std::max(1, *p / 10'000);
+    kept.thread_chamfer = *p / 100 % 100;
     kept.thread_angle = *p % 100 * radian_per_degree;
   }
   if (run.has('Q')) kept.thread_least = increments(run, 'Q');

@@ -7,7 +7,8 @@
 //
 // G71 first moves the start point by the allowances too. Pass n runs at the level d·n under it, to
 // the contour, out of the cut at 45° by e, and back. The last pass follows the contour with its
-// allowances. The contour must neither go back along Z nor dip in X: pockets (type II) are refused.
+// allowances. The contour must neither go back along Z nor dip in X. When the block N P leads along
+// both axes (type II) it may dip: pocket_roughing.cpp has the passes then.
 // G73 follows the contour R times, U and W nearer each time. All return to the start point. F, S
 // and T in the contour act in G70 only (here: F); radius compensation does not act.
 #include <algorithm>
@@ -22,6 +23,7 @@ namespace aircut::interp {
 namespace {
 
 constexpr int max_passes = 20'000;
+constexpr std::size_t max_moves = 200'000;
 
 bool is_first_line(const BlockRun& run) { return !run.has('P') && !run.has('Q'); }
 
@@ -86,6 +88,7 @@ class LatheRoughing {
   void pattern();
   void rough();
   void pass(double level, double escape);
+  bool pockets(double depth);
   void follow(bool with_feeds);
   void set_feed(double feed);
 
@@ -183,11 +186,14 @@ void LatheRoughing::rough() {
     return run_.error("word_missing", rule_,
                       name_of(rule_) + " needs the depth of a pass: a first line with " +
                           (rule_.code == 720 ? "W" : "U") + " and R, or D");
-  if (const auto back = first_going_back(body_, true))
+  const bool type_two = run_.contour->first_names_both();
+  if (const auto back = first_going_back(body_, !type_two))
     return run_.error("contour_error", 'P',
-                      "the contour goes back in X or Z in line " +
+                      "the contour goes back in line " +
                           std::to_string(run_.contour->line_of(*back + 1)) +
-                          "; pockets (type II) are not cut here, it must rise or fall all along");
+                          (type_two ? "; along the passes it must run one way"
+                                    : "; it must rise or fall all along, or the block of P must "
+                                      "name X and Z, so that pockets are cut (type II)"));
   const PlanePoint left = allowance_of(run_, motion_, rule_.code == 720);
   const PlanePoint finished = start_;
   body_ = shifted(body_, left.u, left.v);
@@ -201,7 +207,8 @@ void LatheRoughing::rough() {
   if (passes > max_passes)
     return run_.error("limit_reached", rule_, "more than 20000 passes; use a larger depth");
   motion_.rapid(start_, "to the allowance");
-  for (int n = 1; n < passes - 1e-9; ++n) pass(start_.v - n * depth, kept.escape);
+  if (type_two && !pockets(depth)) return;
+  for (int n = 1; !type_two && n < passes - 1e-9; ++n) pass(start_.v - n * depth, kept.escape);
   const PlanePoint first = body_.front().start;
   if (approach_.rapid)
     motion_.rapid({start_.u, first.v}, "to the contour");
@@ -211,6 +218,35 @@ void LatheRoughing::rough() {
   follow(false);
   if (body_.back().end.v < start_.v) motion_.rapid({body_.back().end.u, start_.v}, "out");
   motion_.rapid(finished, "to the start");
+}
+
+bool LatheRoughing::pockets(double depth) {
+  PocketRoughing options;
+  options.start = start_;
+  options.depth = depth;
+  options.escape = run_.state.turning.escape;
+  options.rapid_down = approach_.rapid;
+  options.max_moves = max_moves;
+  std::string problem;
+  const auto moves = rough_pockets(body_, options, problem);
+  if (!moves) {
+    run_.error("limit_reached", rule_, problem);
+    return false;
+  }
+  run_.warning("control_setting", run_.place(rule_),
+               "a contour of type II: the order of its pockets and the ways between the passes "
+               "differ from control to control; those here stay above what is not cut yet");
+  const bool dips = first_going_back(body_, true).has_value();
+  const char across = rule_.code == 720 ? 'U' : 'W';
+  if (dips && run_.length(across) != 0)
+    run_.warning("contour_error", run_.place(across),
+                 std::string(1, across) +
+                     " moves both walls of a pocket the same way, so one of them is cut into; "
+                     "give it as 0");
+  for (const CutterMove& move : *moves) motion_.make(move);
+  const double height = moves->empty() ? start_.v : moves->back().end.v;
+  motion_.rapid({start_.u, height}, "back");
+  return true;
 }
 
 void LatheRoughing::pass(double level, double escape) {

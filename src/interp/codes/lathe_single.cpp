@@ -121,11 +121,13 @@ void lathe_feed_mode(const CodeRule& rule, BlockRun& run) {
   run.emit(canon::SetFeedRate{});
 }
 
-// G50 S: the highest speed that G96 may ask for.
+// G50 S: the highest speed that G96 may ask for. G50 X Z: coordinates of the point where the tool
+// stands, as G92 of machining centres.
 void speed_limit(const CodeRule& rule, BlockRun& run) {
-  if (run.has_axis_words())
-    return run.error("unsupported_code", rule,
-                     "G50 with X or Z shifts the coordinates by a preset; use work offsets (G54)");
+  if (run.has_axis_words()) {
+    coordinate_shift(rule, run);
+    if (!run.has('S') || !run.ok()) return;
+  }
   if (!run.has('S')) return run.error("word_missing", rule, "G50 needs S: the highest speed");
   const double limit = *run.number('S');
   if (limit <= 0)
