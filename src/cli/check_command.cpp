@@ -24,11 +24,13 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
                            const SourceText& program, SourceMap& sources, const Checks& checks,
                            Diagnostics& diagnostics, bool& refused) {
   report::Unit unit;
-  interp::Interpreter interpreter(program, job.tools, job.parameters,
-                                  interpreter_options(job, arguments, program), sub_reader(sources),
+  const interp::Options options = interpreter_options(job, arguments, program);
+  interp::Interpreter interpreter(program, job.tools, job.parameters, options, sub_reader(sources),
                                   diagnostics);
   const auto parameters = interpreter.parameters();
-  semantics::ProgramCheck meaning({job.tools, job.machine.get()}, diagnostics, diagnostics);
+  const bool offset_rows = options.dialect != interp::Dialect::linuxcnc;
+  semantics::ProgramCheck meaning({job.tools, job.machine.get(), false, offset_rows}, diagnostics,
+                                  diagnostics);
   std::optional<semantics::TravelCheck> travel;
   if (job.machine && checks.limits) travel.emplace(*job.machine, job.start, diagnostics);
   std::optional<linuxcnc::TravelCheck> axis_travel;

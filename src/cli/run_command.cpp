@@ -145,8 +145,8 @@ int run_command(const RunArguments& a) {
 
   const machine::Machine& machine = *job.machine;
   Diagnostics diagnostics;
-  interp::Interpreter interpreter(**program, job.tools, job.parameters,
-                                  interpreter_options(job, a.program, **program),
+  const interp::Options control = interpreter_options(job, a.program, **program);
+  interp::Interpreter interpreter(**program, job.tools, job.parameters, control,
                                   sub_reader(job.sources), diagnostics);
   plan::Planner planner(machine, job.start, {.period = a.period});
   const Checks checks = asked_for(a.checks);
@@ -188,7 +188,9 @@ int run_command(const RunArguments& a) {
   options.progress = [&](double t, const SourceSpan& span) { progress.tell(t, span); };
   if (a.max_time) options.max_time = *a.max_time;
   Diagnostics doubts;
-  semantics::ProgramCheck meaning({job.tools, job.machine.get(), true}, diagnostics, doubts);
+  const bool offset_rows = control.dialect != interp::Dialect::linuxcnc;
+  semantics::ProgramCheck meaning({job.tools, job.machine.get(), true, offset_rows}, diagnostics,
+                                  doubts);
   const auto parameters = interpreter.parameters();
   if (checks.semantics)
     options.listen = [&](const canon::Command& command) { meaning.see(command); };

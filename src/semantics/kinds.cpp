@@ -9,8 +9,9 @@ namespace {
 
 // Kinds of the interpreter that it gives as warnings: the control accepts the block.
 constexpr std::array interpreter_warnings = {
-    "comp_exit_short",   "comp_rapid",        "cycle_modal_change", "feed_before_unit",
-    "shared_axis_words", "tool_not_selected", "word_ignored",       "wrong_offset"};
+    "comp_exit_short",    "comp_rapid",       "frame_left_on",
+    "cycle_modal_change", "feed_before_unit", "shared_axis_words",
+    "tool_not_selected",  "word_ignored",     "wrong_offset"};
 
 }  // namespace
 

@@ -147,6 +147,7 @@ struct ProgramCheck::State {
   void before_motion();
   void before_cut(const Command& c);
   void check_fresh_length();
+  void check_offset_row();
   void check_length(const Command& c);
   void check_spindle(const Command& c);
   void check_speed();
@@ -232,6 +233,7 @@ void ProgramCheck::State::before_cut(const Command& c) {
 void ProgramCheck::State::check_fresh_length() {
   length_fresh = false;
   if (!tool_known || unsure.tool || length_tool == 0 || length_tool == tool) return;
+  if (context.offset_rows && tool != 0) return check_offset_row();
   SourceSpan at = word_in(length_at, 'H');
   const std::string whose = "G43 takes the length of " + tool_name(length_tool);
   length_checked = true;
@@ -256,6 +258,24 @@ void ProgramCheck::State::check_fresh_length() {
   tell(Severity::error, "wrong_offset", at, std::move(message), help);
 }
 
+// Any row may be meant, also one that the program has filled itself. But a row that is named after
+// another tool of the table, with another length than that of the tool in the spindle, is worth a
+// question.
+void ProgramCheck::State::check_offset_row() {
+  length_checked = true;
+  const tool::Tool* now = loaded();
+  if (!now || !context.tools.find(length_tool) || same(now->offset, length)) return;
+  const double higher = length[Axis::z] - now->offset[Axis::z];
+  tell(Severity::warning, "wrong_offset", word_in(length_at, 'H'),
+       "the offset H" + std::to_string(length_tool) + " has another length than " +
+           tool_name(tool) +
+           ", which is in the spindle, and there is a tool of that number: the "
+           "tip would run " +
+           fixed(std::abs(higher), 3) + " mm " + (higher > 0 ? "higher" : "lower") +
+           " than with H" + std::to_string(tool),
+       "give H" + std::to_string(tool) + " if that is meant");
+}
+
 // The first cut of a tool: is a length in force, and is it the tool's own?
 void ProgramCheck::State::check_length(const Command& c) {
   length_checked = true;
@@ -275,7 +295,8 @@ void ProgramCheck::State::check_length(const Command& c) {
   }
   if (length_tool == 0 || length_tool == tool || same(now->offset, length)) return;
   tell(Severity::error, "wrong_offset", c.span,
-       tool_name(tool) + " moves at the feed with the length of " + tool_name(length_tool) +
+       tool_name(tool) + " moves at the feed with the length of " +
+           (context.offset_rows ? "H" + std::to_string(length_tool) : tool_name(length_tool)) +
            ", which is in force since" + (length_at ? on_line(length_at).substr(3) : " the start"),
        give);
 }

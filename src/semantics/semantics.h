@@ -20,6 +20,8 @@ struct Context {
   const machine::Machine* machine = nullptr;  ///< null: none was named
   /// A simulation follows, which tells itself about inputs and user codes that have no model.
   bool simulated = false;
+  /// H is a row of the control's offset memory (Fanuc, Haas) and not the number of a tool.
+  bool offset_rows = false;
 };
 
 /// How a program has ended: what the next one inherits.

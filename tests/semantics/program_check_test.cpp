@@ -41,11 +41,13 @@ class Doubts : public ::testing::Test {
     Diagnostics diagnostics;
     interp::Options options;
     options.ini = {};
+    options.dialect = dialect_;
     interp::Interpreter interpreter(sources.add("a.ngc", text), tools_, parameters_, options, {},
                                     diagnostics);
     const auto before = interpreter.parameters();
-    ProgramCheck check({tools_, with_machine_ ? &machine_ : nullptr, simulated_}, diagnostics,
-                       diagnostics);
+    const bool offset_rows = dialect_ != interp::Dialect::linuxcnc;
+    ProgramCheck check({tools_, with_machine_ ? &machine_ : nullptr, simulated_, offset_rows},
+                       diagnostics, diagnostics);
     while (const auto command = interpreter.next()) {
       check.see(*command);
       if (const auto* probe = std::get_if<canon::Probe>(&command->action))
@@ -69,6 +71,7 @@ class Doubts : public ::testing::Test {
   interp::ParameterFile parameters_;
   machine::Machine machine_;
   bool with_machine_ = false, simulated_ = false;
+  interp::Dialect dialect_ = interp::Dialect::linuxcnc;
 };
 
 const std::string head = "G21 G17 G90\nT1 M6\nM3 S1000 F100\n";
@@ -290,6 +293,38 @@ TEST_F(Doubts, HasATextForEveryKind) {
   }
   EXPECT_TRUE(is_semantic("wrong_offset"));
   EXPECT_FALSE(is_semantic("arc_error"));
+}
+
+// On Fanuc-like controls H and D are rows of offsets.
+TEST_F(Doubts, JudgeOffsetRowsByWhatIsInThem) {
+  dialect_ = interp::Dialect::fanuc;
+  const auto at = [&](const std::string& h) {
+    return run("G21 S1000\nT1 M6\nM3\nG43 H" + h + " Z5.\nG1 Z-1. F100.\nM30\n");
+  };
+  EXPECT_EQ(at("1").found, List{});
+  EXPECT_EQ(at("3").found, List{});  // as long as T1
+  const Result other = at("2");
+  EXPECT_EQ(other.found, List{"wrong_offset 4:5 H2"});
+  EXPECT_EQ(other.severities, std::vector<Severity>{Severity::warning});
+  EXPECT_NE(other.messages[0].find("30.000 mm higher"), std::string::npos) << other.messages[0];
+  // A row that no tool is named after is meant.
+  EXPECT_EQ(found("G21 S1000\nG10 L11 P12 R70.\nT1 M6\nM3\nG43 H12 Z5.\nG1 Z-1. F100.\nM30\n"),
+            List{});
+  // The one of the tool before is not.
+  EXPECT_EQ(found("G21 S1000\nT2 M6\nM3\nG43 H2 Z5.\nM5\nT1 M6\nM3\nG1 Z-1. F100.\nM30\n"),
+            List{"wrong_offset 8:1 G1 Z-1. F100."});
+  EXPECT_EQ(found("G21 S1000\nT1 M6\nM3\nG43 H1 Z5.\nG41 D2 G1 X5. F100.\nX20.\nG40 X40.\nM30\n"),
+            List{"wrong_offset 5:5 D2"});
+  EXPECT_EQ(found("G21 S1000\nG10 L12 P20 R0.9\nT1 M6\nM3\nG43 H1 Z5.\nG41 D20 G1 X5. "
+                  "F100.\nX20.\nG40 X40.\nM30\n"),
+            List{});
+}
+
+TEST_F(Doubts, TellFramesThatAreLeftOn) {
+  dialect_ = interp::Dialect::fanuc;
+  EXPECT_EQ(found("G21\nG68 X0 Y0 R30.\nT1 M6\nG69\nM30\n"), List{"frame_left_on 3:4 M6"});
+  EXPECT_EQ(found("G21\nG16\nM30\n"), List{"frame_left_on 3:1 M30"});
+  EXPECT_EQ(found("G21\nG51 X0 Y0 Z0 P2.\nG50\nG51.1 X0\nG50.1 X0\nM30\n"), List{});
 }
 
 }  // namespace
