@@ -4,6 +4,8 @@
 //   ; setup: FILE                         with this set-up of programs/; may be missing
 //   ; …  Verdict pass.                    or: verdict fail: `kind`
 //
+// Programs of other controls have their header in ( ), with `dialect: NAME`. `machine: none` is a
+// lathe's, which is checked without a machine, with the tool table beside it.
 // Programs that are meant to fail say so with the kind of the finding in backquotes.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -24,6 +26,7 @@ namespace fs = std::filesystem;
 struct Header {
   std::string machine;  ///< empty: not said
   std::string setup;    ///< empty: none
+  std::string dialect;  ///< empty: that of the machine
   bool passes = false;
   std::string kind;  ///< of the finding, when it doesn't pass
 };
@@ -38,10 +41,14 @@ std::string after(const std::string& text, const std::string& mark, const std::s
 Header header_of(const fs::path& program) {
   std::ifstream in(program);
   std::string comments;
-  for (std::string line; std::getline(in, line) && line.starts_with(";");) comments += line + "\n";
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || std::string(";(%O").find(line[0]) == std::string::npos) break;
+    comments += line + "\n";
+  }
   Header header;
   header.machine = after(comments, "machine: ", ",. \n");
   header.setup = after(comments, "setup: ", ", \n");
+  header.dialect = after(comments, "dialect: ", "), \n");
   header.passes = comments.find("erdict pass") != std::string::npos &&
                   comments.find("erdict fail") == std::string::npos;
   header.kind = after(comments, "erdict fail: `", "`");
@@ -53,9 +60,9 @@ struct Outcome {
   std::string out;
 };
 
-Outcome run(const std::string& arguments) {
+Outcome aircut(const std::string& arguments) {
   const std::string command = "cd " AIRCUT_SOURCE_DIR " && timeout 300 " AIRCUT_BINARY_DIR
-                              "/bin/aircut run " +
+                              "/bin/aircut " +
                               arguments + " 2>&1 </dev/null";
   Outcome outcome;
   std::FILE* pipe = ::popen(command.c_str(), "r");
@@ -83,8 +90,17 @@ TEST_P(ShippedProgram, ComesOutAsItsHeaderSays) {
   ASSERT_FALSE(header.machine.empty()) << "the header has no `machine: NAME,`";
   ASSERT_NE(header.passes, !header.kind.empty())
       << "the header needs `Verdict pass` or `Verdict fail: ` with a kind in backquotes";
-  const std::string setup = header.setup.empty() ? "" : " --setup programs/" + header.setup;
-  const Outcome outcome = run("programs/" + GetParam() + " -m " + header.machine + setup);
+  std::string arguments = " programs/" + GetParam();
+  if (!header.dialect.empty()) arguments += " --dialect " + header.dialect;
+  if (header.machine == "none") {
+    const std::string table = "programs/" + fs::path(GetParam()).stem().string() + ".tbl";
+    const Outcome outcome = aircut("check" + arguments + " --lathe --tools " + table);
+    EXPECT_EQ(outcome.code, 0) << outcome.out;
+    EXPECT_EQ(outcome.out.find("warning["), std::string::npos) << outcome.out;
+    return;
+  }
+  if (!header.setup.empty()) arguments += " --setup programs/" + header.setup;
+  const Outcome outcome = aircut("run" + arguments + " -m " + header.machine);
   EXPECT_EQ(outcome.code, header.passes ? 0 : 1) << outcome.out;
   if (header.passes) {
     EXPECT_NE(outcome.out.find("100 % proven clear"), std::string::npos) << outcome.out;

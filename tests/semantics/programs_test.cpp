@@ -24,13 +24,13 @@ std::vector<fs::path> programs_in(const fs::path& folder) {
   return out;
 }
 
-// `; machine: mill3, as delivered` → mill3
-std::string machine_of(const fs::path& program) {
+// `; machine: mill3, as delivered` → mill3; `word` may also be `dialect: `.
+std::string header_of(const fs::path& program, const std::string& word) {
   std::ifstream in(program);
   for (std::string line; std::getline(in, line);)
-    if (const auto at = line.find("machine: "); at != std::string::npos) {
-      const std::string rest = line.substr(at + 9);
-      return rest.substr(0, rest.find_first_of(", "));
+    if (const auto at = line.find(word); at != std::string::npos) {
+      const std::string rest = line.substr(at + word.size());
+      return rest.substr(0, rest.find_first_of("), "));
     }
   return {};
 }
@@ -45,7 +45,8 @@ std::multiset<std::string> told(const fs::path& program, const tool::ToolTable& 
   const auto reader = [&](const std::string& path) { return sources.open(path); };
   interp::Interpreter interpreter(**text, tools, parameters, options, reader, refusals);
   const auto before = interpreter.parameters();
-  ProgramCheck check({tools, machine}, refusals, out);
+  const bool offset_rows = options.dialect != interp::Dialect::linuxcnc;
+  ProgramCheck check({tools, machine, false, offset_rows}, refusals, out);
   std::optional<TravelCheck> travel;
   if (machine) travel.emplace(*machine, machine->home(), out);
   while (const auto command = interpreter.next()) {
@@ -72,12 +73,22 @@ TEST(Programs, OfTheExamplesOnlyThoseAreToldAboutThatAreMeantTo) {
   for (const fs::path& program : programs_in(root / "programs")) {
     SourceMap sources;
     Diagnostics out;
-    const std::string name = machine_of(program);
+    const std::string name = header_of(program, "machine: ");
+    interp::Options options;
+    if (header_of(program, "dialect: ") == "fanuc") options.dialect = interp::Dialect::fanuc;
+    if (name == "none") {  // a lathe's, with a tool table of its own
+      options.lathe = true;
+      fs::path table = program;
+      const auto own = tool::read_tools(table.replace_extension(".tbl").string(), 1, sources, out);
+      ASSERT_TRUE(own) << table;
+      EXPECT_EQ(told(program, *own, nullptr, options), std::multiset<std::string>()) << program;
+      ++seen;
+      continue;
+    }
     const auto machine = machine::read_machine((root / "machines" / name).string(), sources, out);
     ASSERT_TRUE(machine) << program << " " << name;
     const auto tools = tool::read_tools((*machine)->default_tools_, 1, sources, out);
     ASSERT_TRUE(tools);
-    interp::Options options;
     options.axes = (*machine)->kinematics().axes();
     options.start = *(*machine)->kinematics().forward((*machine)->home(), {});
     interp::ParameterFile parameters;  // with the machine's work offsets
