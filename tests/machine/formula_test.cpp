@@ -168,9 +168,10 @@ std::shared_ptr<const Machine> machine_of(const std::vector<PackageFile>& files,
 TEST(NewPackage, IsReadWithoutAComplaint) {
   std::vector<std::string> formulas;
   for (const auto& v : vectors().at("vectors")) formulas.push_back(v.at("formula"));
-  formulas.insert(formulas.end(), {"R(RT:C)-R(RT1:A)-O-T(TS:X)-T(PS:Y)-T(LS:Z)",
-                                   "T(PS:Y)-T(TS:X)-O-T(VS:Z)", "T(TS:X)-O-T(PS:Y)-T(VS:Z)-R(HD:B)",
-                                   "O-T(TS:X)-T(LS:Z)", "R(MS:S)-O-T(LS:Z)-T(PS:Y)-T(TS:X)"});
+  formulas.insert(formulas.end(),
+                  {"R(RT:C)-R(RT1:A)-O-T(TS:X)-T(PS:Y)-T(LS:Z)", "T(PS:Y)-T(TS:X)-O-T(VS:Z)",
+                   "T(TS:X)-O-T(PS:Y)-T(VS:Z)-R(HD:B)", "O-T(TS:X)-T(LS:Z)",
+                   "R(MS)-O-{T(LS)-T(TS)|T(LS)-T(TS)}", "R(MS:S)-O-T(LS:Z)-T(PS:Y)-T(TS:X)"});
   for (const std::string& text : formulas) {
     SCOPED_TRACE(text);
     const auto files = package_of(parsed(text), "test");

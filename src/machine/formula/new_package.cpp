@@ -212,10 +212,10 @@ class Package {
           work_link_ = link;
       }
       if (couple.rotary && &couple != &branch.back())
-        add_body("carrier-" + lower(couple.element), link,
+        add_body("carrier-" + lower(link), link,
                  transformed(revolve({{60, -128}, {60, -122}}, 0.05), X), "#9aa1a6");
       if (couple.rotary) continue;
-      add_body("work-slide-" + lower(couple.element), link,
+      add_body("work-slide-" + lower(link), link,
                transformed(make_box(Vec3(-120, -120, back - 100), Vec3(120, 120, back)), X),
                "#7d8f99");
       back += 110;
@@ -250,10 +250,9 @@ class Package {
       link = add_axis(couple, link, Vec3(0, place.y, gauge_z), radial ? side : 1, 1);
       const double y = layer_y(i, branch);
       if (couple.rotary && i + 1 < branch.size())
-        add_body("carrier-" + lower(couple.element), link, box(-30, 30, y, y + 40, 60, 120),
-                 "#9aa1a6");
+        add_body("carrier-" + lower(link), link, box(-30, 30, y, y + 40, 60, 120), "#9aa1a6");
       if (couple.rotary) continue;
-      add_body("slide-" + lower(couple.element), link,
+      add_body("slide-" + lower(link), link,
                radial ? box(-40, 300, y, y + 40, 30, 150) : box(100, 420, y, y + 40, 20, 260),
                radial ? "#8d9aa1" : "#7d8f99");
     }
