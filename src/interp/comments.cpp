@@ -1,5 +1,6 @@
 // Comments that do something: MSG, DEBUG, PRINT, LOG…, PROBE…, ABORT.
 #include <algorithm>
+#include <cmath>
 
 #include "base/text.h"
 #include "interp/dialect.h"
@@ -24,9 +25,12 @@ std::optional<std::string_view> behind(std::string_view text, std::string_view w
   return text.substr(word.size());
 }
 
-// The control writes numbers into 30 bytes, one of which ends the text.
+// The control writes numbers into 30 bytes, one of which ends the text; what is nearly 0 it takes
+// for 0, and -0.4 without decimals is -0.
 std::string format(double value, int decimals) {
+  if (std::fabs(value) < 1e-4) value = 0;
   std::string text = fixed(value, decimals);
+  if (value < 0 && !text.starts_with('-')) text.insert(0, "-");
   return text.size() < 30 ? text : "######";
 }
 

@@ -77,13 +77,13 @@ bool Machine::unary(const Instruction& at) {
       x = std::exp(x);
       return true;
     case Op::fix:
-      x = std::floor(x) + 0.0;  // the control makes integers of these, which have no -0
+      x = std::floor(x);
       return true;
     case Op::fup:
-      x = std::ceil(x) + 0.0;
+      x = std::ceil(x);
       return true;
     case Op::round:
-      x = std::round(x) + 0.0;
+      x = std::round(x) + 0.0;  // the control makes an integer of it, which has no -0
       return true;
     case Op::acos:
     case Op::asin:
