@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "cli/exit_code.h"
+#include "cli/log_arguments.h"
 
 namespace aircut::cli {
 
@@ -170,6 +171,8 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   MachineArguments machine;
   KinArguments kin;
   WorkspaceArguments workspace;
+  LogArguments log;
+  DiffArguments diff;
   ExplainArguments explain;
   std::vector<std::string> set;
   std::string fail_on = "error", size = "1280x800";
@@ -400,6 +403,8 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_workspace->add_flag("--connected", workspace.connected,
                         "only what is connected with home by neighbouring points");
   add_color(c_workspace, workspace.color);
+  CLI::App* c_log = add_log(app, log);
+  CLI::App* c_diff = add_diff(app, diff);
 
   CLI::App* c_explain = app.add_subcommand("explain",
                                            "what a kind of message means\n\n"
@@ -430,7 +435,8 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     if (word.starts_with("-")) {
       message = "there is no option '" + printable(word) + "'." +
                 did_you_mean(word.substr(0, word.find('=')), option_names(active()));
-    } else if (active() == &app || active() == c_machine || active() == c_kin) {
+    } else if (active() == &app || active() == c_machine || active() == c_kin ||
+               active() == c_log) {
       std::vector<std::string> names;
       for (const CLI::App* sub : active()->get_subcommands({})) names.push_back(sub->get_name());
       message = "there is no command '" + printable(word) + "'." + did_you_mean(word, names);
@@ -446,7 +452,8 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     std::printf("%s\n", e.what());
     return 0;
   } catch (const CLI::ParseError& e) {
-    CLI::App* at = active() == c_machine || active() == c_kin ? active() : &app;
+    CLI::App* at =
+        active() == c_machine || active() == c_kin || active() == c_log ? active() : &app;
     const std::string word = at == &app ? (argc > 1 ? argv[1] : "") : (argc > 2 ? argv[2] : "");
     if (active() == at && !word.empty() && !word.starts_with("-")) {
       std::vector<std::string> names;
@@ -514,6 +521,8 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     return Arguments(kin);
   }
   if (c_workspace->parsed()) return Arguments(workspace);
+  if (c_log->parsed()) return Arguments(log);
+  if (c_diff->parsed()) return Arguments(diff);
   if (c_explain->parsed()) {
     if (explain.kind.empty() && !explain.list)
       return usage_error(make_error("usage", "explain needs a kind, or --list for all of them"),

@@ -108,6 +108,27 @@ struct WorkspaceArguments {
   When color = When::automatic;
 };
 
+struct LogArguments {
+  enum class Action { check, info, diff, table, plot } action = Action::info;
+  std::string file, other;
+  ProgramArguments program;  ///< check: may be empty
+  std::string output;
+  bool force = false;
+  std::vector<std::string> columns;
+  unsigned long long every = 1;
+  double from = 0, to = 1e300;  ///< s
+  double tolerance = 1e-6;
+  int width = 1600;
+  std::string color_word = "auto";
+};
+
+struct DiffArguments {
+  std::string one, two;
+  ProgramArguments program;  ///< `program` unused
+  double tolerance = 1e-6;
+  std::size_t most = 100;
+};
+
 struct ExplainArguments {
   std::string kind;
   bool list = false;
@@ -116,7 +137,8 @@ struct ExplainArguments {
 struct DoctorArguments {};
 
 using Arguments = std::variant<RunArguments, CheckArguments, TraceArguments, MachineArguments,
-                               KinArguments, WorkspaceArguments, ExplainArguments, DoctorArguments>;
+                               KinArguments, WorkspaceArguments, LogArguments, DiffArguments,
+                               ExplainArguments, DoctorArguments>;
 
 /// Either what to do, or the exit code when the command line was answered (help, version, usage).
 std::variant<Arguments, int> parse(int argc, char** argv);

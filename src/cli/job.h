@@ -81,6 +81,8 @@ int new_command(const MachineArguments& arguments);
 int kin_command(const KinArguments& arguments);
 int workspace_command(const WorkspaceArguments& arguments);
 int rot_command(const KinArguments& arguments);
+int log_command(const LogArguments& arguments);
+int diff_command(const DiffArguments& arguments);
 int explain_command(const ExplainArguments& arguments);
 int doctor_command();
 

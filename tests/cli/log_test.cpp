@@ -1,0 +1,130 @@
+// `aircut log` and `aircut diff`: joint logs read back, and programs compared by their motion.
+#include "program.h"
+
+namespace aircut {
+namespace {
+
+struct LogCommand : Program {
+  // A short program with corners, an arc and a helix, run on a mill; the log is at log().
+  void run_part(const std::string& mode = "G64 P0.02") {
+    put("part.ngc", "G21 G90 G17 G54 " + mode +
+                        "\nT5 M6\nG43 H5\nS3000 M3\nG0 X10 Y10 Z20\nG1 Z10 F900\nX40\nY30\n"
+                        "G2 X20 Y10 I-20 J0\nG3 X20 Y10 Z8 I5 J0\nG1 X10 Y20 F1200\nX60 Y40\n"
+                        "G0 Z20\nM5\nM2\n");
+    const Outcome run =
+        aircut("run " + path("part.ngc") + " -m mill3 --check syntax --log " + log());
+    ASSERT_TRUE(std::filesystem::exists(log())) << run.err << run.out;
+  }
+  std::string log() const { return path("joints.csv"); }
+};
+
+TEST_F(LogCommand, ChecksARunsLogAgainstItsProgram) {
+  run_part();
+  const Outcome good =
+      aircut("log check " + log() + " --program " + path("part.ngc") + " -m mill3");
+  EXPECT_EQ(good.code, 0) << good.out << good.err;
+  EXPECT_TRUE(good.says("pass"));
+  put("other.ngc",
+      "G21 G90 G17 G54 G61\nT5 M6\nG43 H5\nS3000 M3\nG0 X10 Y10 Z20\nG1 Z10 F900\nX41\nM2\n");
+  const Outcome bad =
+      aircut("log check " + log() + " --program " + path("other.ngc") + " -m mill3");
+  EXPECT_EQ(bad.code, 1) << bad.out;
+  EXPECT_TRUE(bad.says("off the programmed path")) << bad.out;
+  EXPECT_EQ(aircut("log check " + log() + " --program " + path("part.ngc")).code, 2);
+}
+
+TEST_F(LogCommand, KeepsToThePathInExactMode) {
+  run_part("G61");
+  const Outcome good =
+      aircut("log check " + log() + " --program " + path("part.ngc") + " -m mill3");
+  EXPECT_EQ(good.code, 0) << good.out << good.err;
+}
+
+TEST_F(LogCommand, FindsARowThatJumps) {
+  run_part();
+  std::string text = text_of(log());
+  // A tenth of a millimetre more in the first joint of a row in the middle.
+  std::size_t row = text.find("\n1.5,");
+  ASSERT_NE(row, std::string::npos);
+  for (int comma = 0; comma < 7; ++comma) row = text.find(',', row) + 1;
+  const std::size_t end = text.find(',', row);
+  text.replace(row, end - row, std::to_string(std::stod(text.substr(row, end - row)) + 0.1));
+  put("bad.csv", text);
+  const Outcome bad = aircut("log check " + path("bad.csv"));
+  EXPECT_EQ(bad.code, 1);
+  EXPECT_TRUE(bad.says("acceleration limit of joint X is passed")) << bad.out;
+  const Outcome diff = aircut("log diff " + log() + " " + path("bad.csv"));
+  EXPECT_EQ(diff.code, 1);
+  EXPECT_TRUE(diff.says("differs from t = 1.500 s")) << diff.out;
+  EXPECT_EQ(aircut("log diff " + log() + " " + log()).code, 0);
+}
+
+TEST_F(LogCommand, RefusesWhatIsNoLogAtItsPlace) {
+  put("bad.csv", "# format=aircut-joints-1\n# joints=X:furlong\nt,line\n");
+  const Outcome bad = aircut("log info " + path("bad.csv"));
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_TRUE(bad.says("bad.csv:2:3")) << bad.err;
+  EXPECT_EQ(aircut("log check " + path("missing.csv")).code, 2);
+  const Outcome wrong = aircut("log chekc x");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_TRUE(wrong.says("check")) << wrong.err;
+}
+
+TEST_F(LogCommand, ExportsAndDraws) {
+  run_part();
+  EXPECT_EQ(aircut("log export " + log() + " -o " + path("t.csv") + " --columns t,q0,q1").code, 0);
+  EXPECT_EQ(text_of(path("t.csv")).substr(0, 7), "t,q0,q1");
+  EXPECT_EQ(aircut("log export " + log() + " -o " + path("t.csv")).code, 2) << "it exists";
+  EXPECT_EQ(aircut("log export " + log() + " -o " + path("t.npy") + " --every 10").code, 0);
+  EXPECT_EQ(aircut("log export " + log() + " -o " + path("t.xls")).code, 2);
+  EXPECT_EQ(aircut("log plot " + log() + " -o " + path("p.png") + " --from 0.5 --to 2").code, 0);
+  EXPECT_EQ(text_of(path("p.png")).substr(1, 3), "PNG");
+  const Outcome info = aircut("log info " + log());
+  EXPECT_EQ(info.code, 0);
+  EXPECT_TRUE(info.says("cycle time"));
+}
+
+struct Diff : Program {
+  Outcome diff(const std::string& a, const std::string& b) {
+    put("a.ngc", a);
+    put("b.ngc", b);
+    return aircut("diff " + path("a.ngc") + " " + path("b.ngc"));
+  }
+};
+
+TEST_F(Diff, SeesTheSameMotionInOtherWords) {
+  const Outcome same =
+      diff("G21 G90 F600\nG1 X10\nX20 Y5\nM2\n",
+           "(the same)\nG21 G91 F600\nN10 G1 X5\nG1 X5\nG1 X[5*2] Y5 (there)\nM2\n");
+  EXPECT_EQ(same.code, 0) << same.out;
+  EXPECT_TRUE(same.says("the motion is the same"));
+}
+
+TEST_F(Diff, NamesTheMovesThatDiffer) {
+  const Outcome moved = diff("G21 G90 F600\nG1 X10\nG1 X10 Y5\nG1 X0 Y0\nM2\n",
+                             "G21 G90 F600\nG1 X10\nG1 X10 Y6\nG1 X0 Y0\nM2\n");
+  EXPECT_EQ(moved.code, 1);
+  EXPECT_TRUE(moved.says("- ")) << moved.out;
+  EXPECT_TRUE(moved.says("a.ngc:3")) << moved.out;
+  EXPECT_TRUE(moved.says("b.ngc:3"));
+  EXPECT_FALSE(moved.says("a.ngc:2"));
+  EXPECT_FALSE(moved.says("a.ngc:5"));
+}
+
+TEST_F(Diff, NamesTheFeedSpindleAndToolThatDiffer) {
+  const Outcome feed =
+      diff("G21 G90 S1000 M3 F600\nG1 X10\nY10\nM2\n", "G21 G90 S2000 M3 F500\nG1 X10\nY10\nM2\n");
+  EXPECT_EQ(feed.code, 1);
+  EXPECT_TRUE(feed.says("feed 600 | 500")) << feed.out;
+  EXPECT_TRUE(feed.says("spindle speed 1000 | 2000"));
+  EXPECT_FALSE(feed.says("a.ngc:3")) << "told once";
+}
+
+TEST_F(Diff, IsUnknownForAProgramThatIsRefused) {
+  const Outcome bad = diff("G21 G90 F600\nG1 X10\nM2\n", "G21 G90 F600\nG1 X10\nG1 X1o\nM2\n");
+  EXPECT_NE(bad.code, 0);
+  EXPECT_TRUE(bad.says("not compared"));
+}
+
+}  // namespace
+}  // namespace aircut
