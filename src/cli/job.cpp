@@ -154,7 +154,12 @@ interp::Options interpreter_options(const Job& job, const ProgramArguments& argu
   options.sub_path.insert(options.sub_path.begin(), folder_of(program.name()));
   if (job.machine) options.sub_path.push_back(job.machine->folder() + "/subs");
   for (const std::string& folder : arguments.sub_path) options.sub_path.push_back(folder);
-  if (arguments.max_blocks) options.limits.max_blocks = *arguments.max_blocks;
+  if (arguments.max_blocks) {
+    interp::Limits& limits = options.limits;
+    limits.max_blocks = *arguments.max_blocks;
+    limits.max_idle_blocks = std::max(limits.max_idle_blocks, limits.max_blocks);
+    limits.max_repeat = std::max(limits.max_repeat, limits.max_blocks);
+  }
   return options;
 }
 

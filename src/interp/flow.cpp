@@ -122,7 +122,7 @@ FlowIndex::FlowIndex(const SourceText& source, std::uint64_t begin, bool block_d
       block.clear();
       // A line whose condition can't be read still is what its keyword says.
       parse_line(line, parameters, table, block);
-      if (block.oword.keyword != Keyword::none) {
+      if (block.oword.keyword != Keyword::none && block.oword.keyword != Keyword::call) {
         FlowEntry entry;
         entry.begin = begin;
         entry.after = extent.next;

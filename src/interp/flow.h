@@ -1,8 +1,10 @@
 // The O-words of one file and how they belong together, found once by reading the file's O-lines
-// from top to bottom. Nothing else of the file is looked at.
+// from top to bottom. Nothing else of the file is looked at, and calls, of which a program may have
+// millions, are not kept: nothing leads to them.
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <optional>
 #include <set>
@@ -48,7 +50,7 @@ class FlowIndex {
   FlowIndex(const SourceText& source, std::uint64_t begin, bool block_delete, bool stops_at_percent,
             Parameters& parameters, const CodeTable& table);
 
-  std::vector<FlowEntry> entries;
+  std::deque<FlowEntry> entries;  ///< in the order of the file; growing needs no second copy
 
   /// True when the file has more of them than are kept; the rest was not read.
   bool overfull() const { return overfull_; }
@@ -87,12 +89,12 @@ class FlowIndex {
   void leave_open(int at, const std::string& text);
   void end_scope();
 
-  std::vector<int> open_;       ///< entries of the constructs that are open, innermost last
-  std::set<std::string> used_;  ///< labels of the scope
+  std::vector<int> open_;            ///< entries of the constructs that are open, innermost last
+  std::set<std::string_view> used_;  ///< labels of the scope, kept by the entries
   std::map<std::string, int, std::less<>> subs_;
   int sub_ = -1;
   bool overfull_ = false;
-  std::vector<NumberedBlock> numbered_;  ///< by program, number, place
+  std::deque<NumberedBlock> numbered_;  ///< by program, number, place
 };
 
 }  // namespace aircut::interp

@@ -29,7 +29,7 @@ FlowIndex& Interpreter::Impl::flow_of(ProgramFile& file) {
     report("limit_reached", {0, block_ ? block_->length : 0},
            "the program has more than " + std::to_string(FlowIndex::max_numbered) +
                " N blocks or " + std::to_string(FlowIndex::max_entries) +
-               " O-words, too many to look for a label among them; split it");
+               " O-words (calls do not count), too many to look for a label among them; split it");
     statistics_.limit_reached = true;
     stop();
   }
@@ -40,6 +40,10 @@ FlowIndex& Interpreter::Impl::flow_of(ProgramFile& file) {
 void Interpreter::Impl::execute_oword(Block& block) {
   Frame& frame = frames_.back();
   OWord& oword = block.oword;
+  if (oword.keyword == Keyword::call) {
+    flow_of(*frame.file);
+    return call(block);
+  }
   if (oword.entry < 0) oword.entry = flow_of(*frame.file).at(block.begin);
   const int at = oword.entry;
   if (at < 0) return;  // behind the end of a `%` program
@@ -59,8 +63,6 @@ void Interpreter::Impl::execute_oword(Block& block) {
     case Keyword::endsub:
     case Keyword::return_:
       return leave_sub(block);
-    case Keyword::call:
-      return call(block);
     case Keyword::if_:
       return branch_if(block, at);
     case Keyword::elseif:
@@ -181,7 +183,8 @@ Loop* Interpreter::Impl::loop_at(int at) {
 bool Interpreter::Impl::next_pass(Loop& loop) {
   if (++loop.pass <= options_.limits.max_repeat) return true;
   --loop.pass;
-  loop_limit(frames_.back(), std::to_string(options_.limits.max_repeat) + " passes of one loop");
+  loop_limit(frames_.back(), std::to_string(options_.limits.max_repeat) +
+                                 " passes of one loop (--max-blocks raises it)");
   return false;
 }
 

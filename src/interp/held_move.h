@@ -52,6 +52,8 @@ struct HeldMove {
   std::vector<canon::Command> waiting;  ///< what the next block gives in front of its move
 };
 
+/// True when no move waits or has to wait for another one: a move is made as it is programmed.
+bool is_free(const BlockRun& run);
 /// Makes a move of G1 to G3 as the line says: now, or when the next one has come.
 void make_move(BlockRun& run, const CodeRule& rule, const PlannedMove& move);
 /// Makes it now, through radius compensation where that is on.

@@ -192,8 +192,9 @@ bool Interpreter::Impl::count_block() {
   const bool many = statistics_.blocks > options_.limits.max_blocks;
   if (!many && idle_blocks_ <= options_.limits.max_idle_blocks) return true;
   const std::string which =
-      many ? std::to_string(options_.limits.max_blocks) + " executed blocks"
-           : std::to_string(options_.limits.max_idle_blocks) + " blocks without motion or dwell";
+      (many ? std::to_string(options_.limits.max_blocks) + " executed blocks"
+            : std::to_string(options_.limits.max_idle_blocks) + " blocks without motion or dwell") +
+      " (--max-blocks raises it)";
   for (auto frame = frames_.rbegin(); frame != frames_.rend(); ++frame) {
     if (frame->loops.empty()) continue;
     loop_limit(*frame, which);

@@ -57,7 +57,8 @@ bool Cursor::read_digits(double& number) {
   if (goes_on || digits > most_digits) return read_long_digits(number);
   if (digits == 0) return false;
   at_ = static_cast<std::size_t>(next - line_.data());
-  number = static_cast<double>(mantissa) / powers_of_ten[static_cast<std::size_t>(decimals)];
+  number = static_cast<double>(mantissa);
+  if (decimals > 0) number /= powers_of_ten[static_cast<std::size_t>(decimals)];
   return true;
 }
 

@@ -122,7 +122,8 @@ bool Interpreter::Impl::jump_to_block(std::int64_t number, Place place) {
                               target->place.begin,
                               same ? frame.back->count + 1 : 1};
     if (frame.back->count > options_.limits.max_repeat) {
-      goto_limit(frame, std::to_string(options_.limits.max_repeat) + " passes of one jump");
+      goto_limit(frame, std::to_string(options_.limits.max_repeat) +
+                            " passes of one jump (--max-blocks raises it)");
       return false;
     }
   }

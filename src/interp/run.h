@@ -191,7 +191,11 @@ class BlockRun {
   /// Appends it in front of anything that is held back.
   template <class A>
   void emit_now(A action, std::string expanded = {}) {
-    out_.emplace_back(std::move(action), span(), block_of_command(), std::move(expanded));
+    canon::Command& command = out_.emplace_back();  // filled in where it stays
+    command.action = std::move(action);
+    command.span = span();
+    command.block = block_of_command();
+    if (!expanded.empty()) command.expanded = std::move(expanded);
   }
   /// Hands a move to the compensation, which holds it back.
   void emit_held(canon::Action action);

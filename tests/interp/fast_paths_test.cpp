@@ -169,6 +169,15 @@ TEST(FastPaths, GiveTheSameForLinesInAnyState) {
     Setting setting;
     if (round % 4 == 1)
       for (const Axis axis : {Axis::x, Axis::y, Axis::z}) setting.options.axes.add(axis);
+    if (round % 6 == 2) {  // the set-up gives F or G3 another meaning
+      interp::Remap remap;
+      remap.letter = round % 12 == 2 ? 'F' : 'G';
+      remap.code = remap.letter == 'F' ? 0 : 30;
+      remap.modal_group = 1;
+      remap.python = "something";
+      remap.name = remap.letter == 'F' ? "F" : "G3";
+      setting.options.remaps.push_back(remap);
+    }
     expect_same("F100\n" + program + "M2\n", setting);
   }
 }

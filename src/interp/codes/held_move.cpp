@@ -213,7 +213,14 @@ bool corner_is_possible(BlockRun& run, const CornerRequest& request, const Plann
 
 }  // namespace
 
+bool is_free(const BlockRun& run) {
+  const CompState& comp = run.state.comp;
+  return !run.session.held && !run.session.table.dialect().macro_b && comp.side == CompSide::off &&
+         !comp.leaving;
+}
+
 void make_move(BlockRun& run, const CodeRule& rule, const PlannedMove& move) {
+  if (is_free(run)) return deliver(run, move);
   if (run.session.held) {
     HeldMove held = std::move(*run.session.held);
     run.session.held.reset();

@@ -185,10 +185,12 @@ void linear_feed(const CodeRule& rule, BlockRun& run) {
     return line_by_angle(rule, run, *angle);
   const auto end = target_of(run);
   if (!end) return;
-  PlannedMove move{PlannedMove::Kind::feed, *end, {}};
+  double rate = 0;
   if (run.state.feed_mode == canon::FeedMode::inverse_time)
-    move.rate = note_inverse_time(run, canon::straight_way(run.state.programmed_tip(), *end));
-  make_move(run, rule, move);
+    rate = note_inverse_time(run, canon::straight_way(run.state.programmed_tip(), *end));
+  if (!is_free(run)) return make_move(run, rule, {PlannedMove::Kind::feed, *end, {}, rate});
+  run.emit(canon::LinearFeed{*end});
+  run.state.tip = *end;
 }
 
 void cancel_motion(const CodeRule&, BlockRun&) {}
