@@ -26,7 +26,8 @@ TEST_F(KinTypes, AnswerWithoutAPackage) {
   const Outcome ik = kin("ik --type delta-linear --param radius=120 --param rod=250", "0 0 -150\n");
   EXPECT_EQ(ik.code, 0) << ik.err;
   const double height = -150 + std::sqrt(250.0 * 250 - 120.0 * 120);
-  for (const double q : rows_of(ik.out).at(0)) EXPECT_NEAR(q, height, 1e-8);
+  const auto heights = rows_of(ik.out).at(0);
+  for (const double q : heights) EXPECT_NEAR(q, height, 1e-8);
   const Outcome fk = kin("fk --type delta-linear --param radius=120 --param rod=250", ik.out);
   EXPECT_NEAR(rows_of(fk.out).at(0).at(2), -150, 1e-8) << fk.out;
   const Outcome jac = kin("jac --type corexy", "1 2 3\n");
