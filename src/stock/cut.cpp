@@ -21,8 +21,6 @@
 namespace aircut::stock {
 namespace {
 
-constexpr double margin = 1e-5;  // mm, more than the kernels' rounding
-
 /// Sums of one thread: what each slot lost on Z rays.
 struct Sums {
   std::vector<std::int64_t> quanta;
@@ -227,27 +225,6 @@ struct Bins {
   std::unordered_map<std::size_t, std::vector<const Sweep*>> sweeps;
 };
 
-/// Calls f(i, j) for the columns under the box of a sweep.
-template <class F>
-void each_column(const Sweep& sweep, const Lattice& lattice, F f) {
-  int from[2], to[2];
-  for (int a = 0; a < 2; ++a) {
-    const double r = sweep.outline->radius() + margin, size = lattice.brick_size();
-    double low = std::min(sweep.start[a], sweep.end[a]) - r;
-    double high = std::max(sweep.start[a], sweep.end[a]) + r;
-    if (sweep.tilted) {
-      low = sweep.tilted->box().min()[a];
-      high = sweep.tilted->box().max()[a];
-    }
-    const double last = lattice.bricks[static_cast<std::size_t>(a)] - 1;
-    if (high < 0 || low > (last + 1) * size) return;
-    from[a] = static_cast<int>(std::clamp(std::floor(low / size), 0.0, last));
-    to[a] = static_cast<int>(std::clamp(std::floor(high / size), 0.0, last));
-  }
-  for (int j = from[1]; j <= to[1]; ++j)
-    for (int i = from[0]; i <= to[0]; ++i) f(i, j);
-}
-
 Bins bin(std::span<const Sweep> sweeps, const Lattice& lattice) {
   Bins out;
   for (const Sweep& sweep : sweeps)
@@ -277,87 +254,6 @@ void cut_batch(Stock::Impl& stock, std::span<const Sweep> sweeps, std::vector<Re
     stock.brick_bytes += static_cast<std::size_t>(s.bytes);
   }
 }
-
-/// What a sweep would take, family by family.
-class Toucher {
- public:
-  explicit Toucher(const Stock::Impl& stock) : stock_(stock) {}
-
-  void touch(const Sweep& sweep) {
-    each_column(sweep, stock_.lattice, [&](int i, int j) {
-      const ColumnSweep column = ColumnSweep::of(sweep, stock_.lattice, i, j);
-      if (!column.touches()) return;
-      const double size = stock_.lattice.brick_size();
-      const std::size_t at = static_cast<std::size_t>(j) * stock_.lattice.bricks[0] + i;
-      for (int k = stock_.tops[at] - 1; k >= 0; --k) {
-        if ((k + 1) * size < column.floor) break;
-        if (k * size <= column.roof) touch_brick(column, i, j, k);
-      }
-    });
-  }
-
-  Touch result() const {
-    Touch out = worst_;
-    const std::int64_t most = std::max({quanta_[0], quanta_[1], quanta_[2]});
-    out.volume = static_cast<double>(most) * stock_.lattice.quantum() * stock_.lattice.pitch *
-                 stock_.lattice.pitch;
-    return out;
-  }
-
- private:
-  void touch_brick(const ColumnSweep& sweep, int i, int j, int k) {
-    const BrickSlot& slot = stock_.table[stock_.lattice.index(i, j, k)];
-    if (slot.is(BrickSlot::empty)) return;
-    std::unique_ptr<Brick> scratch;
-    const Brick* brick = stock_.look(i, j, k, scratch);
-    static const Brick solid = [] {
-      Brick all;
-      for (RayFamily& family : all.family) family.full.fill(0xffff);
-      return all;
-    }();
-    if (!brick) {
-      brick = &solid;
-    }
-    const Vec3 low = stock_.lattice.brick_size() * Vec3(i, j, k);
-    if (sweep.tilted &&
-        sweep.tilted->misses({low, low + Vec3::Constant(stock_.lattice.brick_size())}))
-      return;
-    const LocalSweep local = sweep.in_brick(stock_.lattice, k);
-    Chords chords;
-    for (const Family f : families) {
-      const RayFamily& family = brick->family[static_cast<std::size_t>(index_of(f))];
-      for (int row = 0; row < cells; ++row) {
-        if (family.row_empty(row)) continue;
-        if (sweep.tilted)
-          sweep.tilted->chords(stock_.lattice, {i, j, k}, f, row, nullptr, nullptr, chords);
-        else if (f == Family::z)
-          kernels().upright(local, row, nullptr, nullptr, chords);
-        else
-          kernels().level(local, f, row, nullptr, nullptr, chords);
-        note(f, touch_row(family, row, chords), i, j, k);
-      }
-    }
-  }
-
-  void note(Family f, const RowTouch& row, int i, int j, int k) {
-    quanta_[static_cast<std::size_t>(index_of(f))] += row.quanta;
-    const Lattice& lattice = stock_.lattice;
-    const double depth = row.deepest * lattice.quantum();
-    if (!(depth > worst_.depth)) return;
-    worst_.depth = depth;
-    const double along = row.middle * lattice.quantum();
-    const double lane = (row.ray % cells + 0.5) * lattice.pitch;
-    const double line = (row.ray / cells + 0.5) * lattice.pitch;
-    Vec3 p(along, lane, line);
-    if (f == Family::y) p = {lane, along, line};
-    if (f == Family::z) p = {lane, line, along};
-    worst_.point = lattice.origin + lattice.brick_size() * Vec3(i, j, k) + p;
-  }
-
-  const Stock::Impl& stock_;
-  std::array<std::int64_t, 3> quanta_{};
-  Touch worst_;
-};
 
 }  // namespace
 
@@ -413,33 +309,6 @@ Expected<std::vector<Removal>> Stock::cut(std::span<const Piece> pieces) {
     if (bytes() > impl_->options.memory_limit) return unexpected(too_large(*impl_));
   }
   for (Removal& row : out) row.volume = volume_of(row.quanta);
-  return out;
-}
-
-Expected<Touch> Stock::touch(const Piece& piece) const {
-  if (auto ok = supported({&piece, 1}); !ok) return unexpected(ok.error());
-  Toucher toucher(*impl_);
-  for (const Outline& body : piece.cutter->bodies())
-    toucher.touch(Sweep::of(body, piece, impl_->lattice, 0));
-  return toucher.result();
-}
-
-Expected<ContactAnswer> Stock::would_cut(const Piece& piece, double tolerance) const {
-  auto exact = touch(piece);
-  if (!exact) return unexpected(exact.error());
-  ContactAnswer out{.touch = *exact, .least = exact->depth, .most = exact->depth};
-  // Rays are exact, the space between them is not: a body larger by h/2 that finds nothing proves
-  // that the body itself is clear.
-  const CutterProfile grown = piece.cutter->grown(pitch() / 2);
-  Piece larger = piece;
-  larger.cutter = &grown;
-  auto reach = touch(larger);
-  if (!reach) return unexpected(reach.error());
-  out.most = std::max(out.most, reach->depth);
-  if (exact->depth > tolerance)
-    out.contact = Contact::hit;
-  else
-    out.contact = reach->depth > 0 ? Contact::unresolved : Contact::clear;
   return out;
 }
 

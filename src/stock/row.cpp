@@ -109,28 +109,4 @@ RowLoss take_row(RayFamily& family, int row, const Chords& chords, const Kernels
   return loss;
 }
 
-RowTouch touch_row(const RayFamily& family, int row, const Chords& chords) {
-  RowTouch out;
-  const auto offer = [&](int ray, int lo, int hi) {
-    const int a = std::max(chords.a[ray % cells], lo), b = std::min(chords.b[ray % cells], hi);
-    if (b <= a) return;
-    out.quanta += b - a;
-    if (b - a > out.deepest) {
-      out.deepest = b - a;
-      out.ray = ray;
-      out.middle = (a + b) / 2;
-    }
-  };
-  for (int ray = row * cells; ray < (row + 1) * cells; ++ray) {
-    const auto i = static_cast<std::size_t>(ray);
-    if (family.block)
-      offer(ray, family.block->lo[i], family.block->hi[i]);
-    else if (family.full[i / cells] >> (i % cells) & 1)
-      offer(ray, 0, brick_quanta);
-  }
-  for (const ExtraInterval& e : family.extra)
-    if (e.ray / cells == row) offer(e.ray, e.interval.lo, e.interval.hi);
-  return out;
-}
-
 }  // namespace aircut::stock

@@ -14,11 +14,4 @@ struct RowLoss {
 /// Takes the chords from the row.
 RowLoss take_row(RayFamily& family, int row, const Chords& chords, const Kernels& kernels);
 
-/// What taking would lose: the sum, the longest stretch and its middle (ray, quanta).
-struct RowTouch {
-  std::int64_t quanta = 0;
-  int deepest = 0, ray = 0, middle = 0;
-};
-RowTouch touch_row(const RayFamily& family, int row, const Chords& chords);
-
 }  // namespace aircut::stock

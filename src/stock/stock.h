@@ -95,7 +95,10 @@ struct Removal {
 
 /// What a piece would take, of the three families of rays.
 struct Touch {
-  double depth = 0;           ///< mm, the longest material on one ray
+  double depth = 0;  ///< mm, the longest material on one ray
+  /// mm, the same measured across the material's surface: a ray that grazes a wall is long in a
+  /// body that is hardly in it.
+  double across = 0;
   double volume = 0;          ///< mm³, the largest of the three families' sums
   Vec3 point = Vec3::Zero();  ///< middle of that longest material
 };
@@ -105,9 +108,9 @@ enum class Contact { clear, hit, unresolved };
 /// Answer of a body that must not touch the material (docs/stock.md).
 struct ContactAnswer {
   Contact contact = Contact::clear;
-  Touch touch;       ///< of the body itself: exact on the rays
-  double least = 0;  ///< proven depth, mm: at least this much is inside
-  double most = 0;   ///< and at most this much
+  Touch touch;       ///< of the body itself, on the rays
+  double least = 0;  ///< depth across the surface as the rays measure it, mm
+  double most = 0;   ///< with what may hide between the rays
 };
 
 struct MeshStatistics {

@@ -1,11 +1,16 @@
 // One convex body on a straight path, as the columns of bricks see it. Private to stock.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "stock/outline.h"
 #include "stock/solid.h"
 #include "stock/tilted.h"
 
 namespace aircut::stock {
+
+inline constexpr double sweep_margin = 1e-5;  // mm, more than the kernels' rounding
 
 /// A body of a piece's cutter with its path, in the lattice's frame (origin at its lowest corner).
 struct Sweep {
@@ -41,5 +46,26 @@ struct ColumnSweep {
   /// The whole of the cells between two heights is taken, with more margin than rounding.
   bool takes_all(double low, double high) const;
 };
+
+/// Calls f(i, j) for the columns under the box of a sweep.
+template <class F>
+void each_column(const Sweep& sweep, const Lattice& lattice, F f) {
+  int from[2], to[2];
+  for (int a = 0; a < 2; ++a) {
+    const double r = sweep.outline->radius() + sweep_margin, size = lattice.brick_size();
+    double low = std::min(sweep.start[a], sweep.end[a]) - r;
+    double high = std::max(sweep.start[a], sweep.end[a]) + r;
+    if (sweep.tilted) {
+      low = sweep.tilted->box().min()[a];
+      high = sweep.tilted->box().max()[a];
+    }
+    const double last = lattice.bricks[static_cast<std::size_t>(a)] - 1;
+    if (high < 0 || low > (last + 1) * size) return;
+    from[a] = static_cast<int>(std::clamp(std::floor(low / size), 0.0, last));
+    to[a] = static_cast<int>(std::clamp(std::floor(high / size), 0.0, last));
+  }
+  for (int j = from[1]; j <= to[1]; ++j)
+    for (int i = from[0]; i <= to[0]; ++i) f(i, j);
+}
 
 }  // namespace aircut::stock

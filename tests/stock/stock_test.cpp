@@ -459,8 +459,78 @@ TEST(Stock, QueryChangesNothingAndSaysHowDeep) {
   piece.start.z() = piece.end.z() = 12.5;
   EXPECT_EQ(stock.would_cut(piece, 0.001)->contact, Contact::clear);
   piece.start.z() = piece.end.z() = 12.05;  // nearer than half of the pitch
+  // Over a level face the surface between the rays is known, beside its edges it isn't.
+  EXPECT_EQ(stock.would_cut(piece, 0.001)->contact, Contact::clear);
+  piece.start.x() = 1;
   EXPECT_EQ(stock.would_cut(piece, 0.001)->contact, Contact::unresolved);
   EXPECT_EQ(stock.hash(), hash);
+  // The longest stretch goes on over the borders of bricks.
+  piece = {.cutter = &flat, .start = {10, 10, 1}, .end = {10, 10, 1}};
+  EXPECT_NEAR(stock.touch(piece)->depth, 11, 1e-3);
+}
+
+TEST(Stock, ShankThatFollowsItsCuttersWallIsClear) {
+  const auto cutter = *CutterProfile::flat(10, 3),
+             thin = *CutterProfile::from_outline({{0, 3}, {4.95, 3}, {4.95, 40}, {0, 40}});
+  const auto shank = *CutterProfile::from_outline({{0, 3}, {5, 3}, {5, 40}, {0, 40}});
+  const auto thick = *CutterProfile::from_outline({{0, 3}, {5.01, 3}, {5.01, 40}, {0, 40}});
+  Stock stock = block(0.1, {}, {0, 0, 0}, {50, 40, 12});
+  for (int layer = 1; layer <= 3; ++layer) {
+    const Vec3 a(15, 20, 12 - 2.5 * layer), b(35, 23, 12 - 2.5 * layer);
+    Piece piece{.cutter = &cutter, .start = a, .end = b};
+    ASSERT_TRUE(stock.cut({&piece, 1}));
+    piece.cutter = &shank;
+    EXPECT_EQ(stock.would_cut(piece, 0.001)->contact, Contact::clear) << layer;
+    piece.cutter = &thin;
+    EXPECT_EQ(stock.would_cut(piece, 0.001)->contact, Contact::clear) << layer;
+    piece.cutter = &thick;
+    const auto answer = stock.would_cut(piece, 0.001);
+    EXPECT_EQ(answer->contact, layer == 1 ? Contact::clear : Contact::hit) << layer;
+    if (layer > 1) {
+      EXPECT_GT(answer->least, 0.008);
+      EXPECT_LT(answer->least, 0.1);
+    }
+  }
+}
+
+TEST(Stock, BodyThatWouldTouchTheTrueSurfaceIsNeverClear) {
+  // Scenes in which the judge knows the true contact: a body near or in what other moves left.
+  std::mt19937 random(77);
+  const auto uniform = [&](double a, double b) {
+    return std::uniform_real_distribution<double>(a, b)(random);
+  };
+  const auto body = *CutterProfile::flat(4, 6);
+  int clear = 0, hit = 0;
+  for (int n = 0; n < 24; ++n) {
+    Stock stock = block(0.4);
+    const Job job = random_job(tools(), 3, 500 + static_cast<unsigned>(n));
+    ASSERT_TRUE(stock.cut(job.pieces));
+    const Vec3 from(uniform(4, 26), uniform(4, 16), uniform(8, 13));
+    Piece piece{
+        .cutter = &body, .start = from, .end = from + Vec3(uniform(-2, 2), uniform(-2, 2), 0)};
+    const auto answer = stock.would_cut(piece, 0.001);
+    ASSERT_TRUE(answer);
+    // The deepest place of the body that is material, by random points on its sweep.
+    const test::JudgedMove judged{test::flat_shape(4, 6), piece.start, piece.end};
+    double deepest = 0;
+    for (int k = 0; k < 500; ++k) {
+      const Vec3 p = piece.start + uniform(0, 1) * (piece.end - piece.start) +
+                     Vec3(uniform(-2, 2), uniform(-2, 2), uniform(0, 3));
+      if (judged.outside(p) > 0 || p.z() > 12) continue;
+      deepest = std::max(
+          deepest, std::min({test::outside_all(job.judged, p), -judged.outside(p), 12 - p.z()}));
+    }
+    clear += answer->contact == Contact::clear;
+    hit += answer->contact == Contact::hit;
+    if (answer->contact == Contact::clear) {
+      EXPECT_LT(deepest, 0.002) << n;
+    }
+    if (deepest > 0.4) {
+      EXPECT_EQ(answer->contact, Contact::hit) << n;
+    }
+  }
+  EXPECT_GT(clear, 3);
+  EXPECT_GT(hit, 3);
 }
 
 TEST(Stock, ArcIsCutAsChordsWithinItsDeviation) {
