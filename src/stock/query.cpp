@@ -6,10 +6,10 @@
 //
 // Between rays the surface is known to half a pitch, so a body grown by that and touching nothing
 // is clear. A shank that follows the wall which its cutter made never passes that test. So where
-// all that the grown body touches is smooth, a finer bound counts: an end of a ray is on a smooth
-// patch when the ends of its four neighbours lie on its tangent plane within reason and look almost
-// the same way. Between two such ends, L apart and with normals that differ by θ, the surface
-// leaves the chord by about L θ/8; twice that, with the normals' resolution, is the gap that the
+// all that the grown body touches is smooth, a finer bound counts. An end of a ray is on a smooth
+// patch when the ends of its neighbours lie near its tangent plane and look almost the same way; a
+// neighbour may also be without material there, as at a rim, but not solid. Between such ends the
+// surface leaves the chord by an eighth of their second difference; twice that is the gap that the
 // body is grown by.
 #include <algorithm>
 #include <cmath>
@@ -26,8 +26,8 @@ namespace {
 
 constexpr double same_way = 0.9;    // cosine between normals of neighbours on a smooth patch
 constexpr double off_plane = 0.35;  // of a pitch: from the tangent plane
+constexpr double safety = 1.25;     // of the surface's bend between rays
 constexpr double steep = 0.5;       // cosine: a family sees a surface well from here on
-constexpr double normal_resolution = 0.01;  // rad, of 8 + 8 bits
 
 using Index3 = std::array<int, 3>;
 
@@ -93,22 +93,36 @@ class Query {
 
   /// The gap between the rays around a stretch, mm; nothing where the surface isn't smooth.
   std::optional<double> gap_at(const Stretch& s) {
-    if (s.at_low == s.at_high) return std::nullopt;  // all of an interval, or deep inside
+    if (s.at_low && s.at_high) return std::nullopt;  // thin: all of an interval
+    if (!s.at_low && !s.at_high) return gap_over_border(s);
     const bool high = s.at_high;
     const Vec3 n = high ? s.normal_high : s.normal_low;
     const std::int64_t at = high ? s.to : s.from;
     int best = 0;
     n.cwiseAbs().maxCoeff(&best);
     const int axis = index_of(s.family);
-    if (best == axis || std::abs(n[axis]) > steep) return gap_of_end(axis, s.node, at, n);
-    // Another family sees this surface better: it must have an end nearby that agrees.
+    if (best == axis) return gap_of_end(axis, s.node, at, n);
+    // Another family sees this surface better, when it has an end nearby that agrees.
     Index3 node = s.node;
     node[static_cast<std::size_t>(axis)] = static_cast<int>(at / quanta_per_cell);
     const std::int64_t middle =
         (2 * node[static_cast<std::size_t>(best)] + 1) * (quanta_per_cell / 2);
     const auto end = end_near(best, node, middle, n[best] > 0, 1.5 * quanta_per_cell);
-    if (!end || end->second.dot(n) < same_way) return std::nullopt;
+    if (!end || end->second.dot(n) < same_way)
+      return std::abs(n[axis]) > steep ? gap_of_end(axis, s.node, at, n) : std::nullopt;
     return gap_of_end(best, node, end->first, end->second);
+  }
+
+  /// A stretch that a brick's border cut off from the end of its material.
+  std::optional<double> gap_over_border(const Stretch& s) {
+    const int axis = index_of(s.family);
+    for (const bool up : {false, true}) {
+      const std::int64_t border = up ? s.to : s.from;
+      if (border % brick_quanta != 0) continue;
+      const auto end = end_near(axis, s.node, border, up, 1.5 * quanta_per_cell);
+      if (end) return gap_of_end(axis, s.node, end->first, end->second);
+    }
+    return std::nullopt;
   }
 
   double across(const Stretch& s) const {
@@ -309,30 +323,42 @@ class Query {
     return false;
   }
 
+  /// The end of a neighbour `by` rays away that goes on with the patch around an end; nothing where
+  /// the patch stops. `step` when the neighbour has another surface or stays solid there.
+  std::optional<std::int64_t> neighbour_end(int axis, Index3 node, int lateral, int by,
+                                            std::int64_t at, const Vec3& n, bool& step) {
+    const auto l = static_cast<std::size_t>(lateral);
+    node[l] += by;
+    if (node[l] < 0 || node[l] >= lattice_.bricks[l] * cells) return std::nullopt;
+    const double rise = -by * n[lateral] / n[axis];  // of the tangent plane, in pitches
+    const auto expected =
+        std::max<std::int64_t>(at + static_cast<std::int64_t>(rise * quanta_per_cell), 0);
+    const bool up = n[axis] > 0;
+    const auto end = end_near(axis, node, expected, up, off_plane * quanta_per_cell * std::abs(by));
+    if (end && end->second.dot(n) >= same_way) return end->first;
+    step = step || end || solid_near(axis, node, expected, up);
+    return std::nullopt;
+  }
+
   std::optional<double> gap_of_end(int axis, const Index3& node, std::int64_t at, const Vec3& n) {
-    double widest = 0;
+    double bends = 0;
     for (int lateral = 0; lateral < 3; ++lateral) {
       if (lateral == axis) continue;
-      for (const int by : {-1, 1}) {
-        Index3 next = node;
-        int& moved = next[static_cast<std::size_t>(lateral)];
-        moved += by;
-        const double rise = -by * n[lateral] / n[axis];  // of the tangent plane, in pitches
-        const auto expected =
-            std::max<std::int64_t>(at + static_cast<std::int64_t>(rise * quanta_per_cell), 0);
-        if (moved < 0 || moved >= lattice_.bricks[static_cast<std::size_t>(lateral)] * cells)
-          continue;  // the lattice ends, and the material with it
-        const auto end = end_near(axis, next, expected, n[axis] > 0, off_plane * quanta_per_cell);
-        if (!end || end->second.dot(n) < same_way) {
-          // The patch ends where its material does; a neighbour that stays solid is a step.
-          if (end || solid_near(axis, next, expected, n[axis] > 0)) return std::nullopt;
-          continue;
-        }
-        const double angle = std::acos(std::min(end->second.dot(n), 1.0)) + normal_resolution;
-        widest = std::max(widest, lattice_.pitch * std::hypot(1, rise) * angle / 4);
+      bool step = false;
+      const auto before = neighbour_end(axis, node, lateral, -1, at, n, step);
+      const auto after = neighbour_end(axis, node, lateral, 1, at, n, step);
+      if (step || (!before && !after)) return std::nullopt;
+      std::optional<std::int64_t> bend;  // second difference of three ends in a row
+      if (before && after) {
+        bend = *before + *after - 2 * at;
+      } else {
+        const auto next = neighbour_end(axis, node, lateral, before ? -2 : 2, at, n, step);
+        if (next) bend = *next + at - 2 * (before ? *before : *after);
       }
+      if (!bend) return std::nullopt;
+      bends += static_cast<double>(std::abs(*bend));
     }
-    return widest;
+    return (safety * bends / 8 + 1) * lattice_.quantum() * std::abs(n[axis]);
   }
 
   const Stock::Impl& stock_;
