@@ -27,6 +27,7 @@ namespace {
 constexpr double same_way = 0.9;    // cosine between normals of neighbours on a smooth patch
 constexpr double off_plane = 0.35;  // of a pitch: from the tangent plane
 constexpr double safety = 1.25;     // of the surface's bend between rays
+constexpr double sees_best = 0.69;  // of two families across a wall, one is at least this steep
 constexpr double steep = 0.5;       // cosine: a family sees a surface well from here on
 
 using Index3 = std::array<int, 3>;
@@ -120,7 +121,22 @@ class Query {
       const std::int64_t border = up ? s.to : s.from;
       if (border % brick_quanta != 0) continue;
       const auto end = end_near(axis, s.node, border, up, 1.5 * quanta_per_cell);
-      if (end) return gap_of_end(axis, s.node, end->first, end->second);
+      if (end && std::abs(end->second[axis]) > sees_best)
+        return gap_of_end(axis, s.node, end->first, end->second);
+    }
+    // Along a wall, which rays across it see: here is looked at one of them, the others that are
+    // touched are looked at themselves.
+    Index3 node = s.node;
+    node[static_cast<std::size_t>(axis)] = static_cast<int>((s.from + s.to) / 2 / quanta_per_cell);
+    for (int other = 0; other < 3; ++other) {
+      if (other == axis) continue;
+      const std::int64_t at =
+          (2 * node[static_cast<std::size_t>(other)] + 1) * (quanta_per_cell / 2);
+      for (const bool up : {false, true}) {
+        const auto end = end_near(other, node, at, up, 1.5 * quanta_per_cell);
+        if (end && std::abs(end->second[other]) > sees_best)
+          return gap_of_end(other, node, end->first, end->second);
+      }
     }
     return std::nullopt;
   }
