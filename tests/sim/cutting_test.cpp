@@ -75,6 +75,7 @@ TEST_F(Cutting, FindsARapidThroughStock) {
   EXPECT_EQ(f.body_b, "stock");
   EXPECT_EQ(f.pair, "cutter-stock");
   EXPECT_NEAR(f.u_first, 15.0 / 90, 2e-3);  // the cutter's front is 5 mm ahead of its axis
+  EXPECT_NEAR(*f.depth, 60, 0.01);          // along its way
   EXPECT_NEAR(*f.value, 60 * 10 * 5, 0.5 * h * (60 * 10 + 2 * 60 * 5));
 }
 
@@ -147,16 +148,15 @@ TEST_F(Cutting, FindsAShankInTheWall) {
   EXPECT_EQ(run("G0 Z-89\nG1 X40\nG0 Z-70\n", wide).verdict, Verdict::pass);
 }
 
-TEST_F(Cutting, NeverCallsAShankAlongAWallACollision) {
+TEST_F(Cutting, LetsAShankOfTheCuttersDiameterFollowItsWall) {
   const Shape same{.flutes = 10, .shank = 5};
   const RunResult r = run("G0 Z-92\nG1 X40\n", same);
   // Above the flutes the block stands beside the slot's upper part: the shank runs into it.
   EXPECT_EQ(r.only(Kind::collision).body_a, "T1/shank");
   // In layers no deeper than the flutes it only follows the wall.
-  EXPECT_EQ(run("G0 Z-89\nG1 X40\nG0 Z-95\nG1 X-40\n", same).count(Kind::collision), 0);
-  // A shank that is half a pitch thinner is proven clear.
-  EXPECT_EQ(run("G0 Z-89\nG1 X40\nG0 Z-95\nG1 X-40\n", {.flutes = 10, .shank = 4.8}).verdict,
-            Verdict::pass);
+  const RunResult layers = run("G0 Z-89\nG1 X40\nG0 Z-95\nG1 X-40\n", same);
+  for (const Finding& f : layers.findings) ADD_FAILURE() << f.message;
+  EXPECT_EQ(layers.verdict, Verdict::pass);
 }
 
 TEST_F(Cutting, DrillsDeeperThanTheFlutesWithoutTheShankTouching) {
