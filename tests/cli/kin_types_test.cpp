@@ -138,7 +138,7 @@ TEST_F(KinTypes, ARunOnADeltaPasses) {
       axis_toml("tool", "py", "kind = \"linear\"\ndirection = [0, 0, 1]\npassive = \"platform_z\"");
   write("delta/machine.toml", toml + two_bodies);
   write("part.ngc",
-        "G21 G90\nM3 S100\nG1 X30 Y20 Z-40 F3000\nG2 X-30 Y20 I-30 J-20\nG1 Z20\nX0 Y0 Z0\nM30\n");
+        "G21 G90\nG1 X30 Y20 Z-40 F3000\nG2 X-30 Y20 I-30 J-20\nG1 Z20\nX0 Y0 Z0\nM30\n");
   const Outcome r = run("run -m ./delta part.ngc");
   EXPECT_EQ(r.code, 0) << r.out << r.err;
   EXPECT_NE(r.out.find("100 % proven clear"), std::string::npos) << r.out;
