@@ -216,8 +216,8 @@ TEST(FanucCodes, ControlThePath) {
 }
 
 TEST(FanucCodes, AreAcceptedWhenTheyMoveNothing) {
-  for (const char* line : {"G9", "G5.1 Q1", "G8 P1", "G13.1", "G22 X1. Y1. Z1. I0 J0 K0",
-                           "G23", "G25", "G26", "G113", "G40.1"}) {
+  for (const char* line : {"G9", "G5.1 Q1", "G8 P1", "G13.1", "G22 X1. Y1. Z1. I0 J0 K0", "G23",
+                           "G25", "G26", "G113", "G40.1"}) {
     EXPECT_EQ(kinds_of(line, fanuc, Severity::info), std::vector<std::string>{"code_accepted"})
         << line;
     EXPECT_EQ(kinds_of(line, fanuc, Severity::error), std::vector<std::string>()) << line;

@@ -22,7 +22,8 @@ void ProgramMaker::contour_piece(int& x, int& y, int& way) {
   switch (below(8)) {
     case 0:
       x += dx, y += dy;
-      return add(pick({"G2 ", "G3 "}) + point() + " R" + pick({"40", "60", "35", "30"}) + z + feed());
+      return add(pick({"G2 ", "G3 "}) + point() + " R" + pick({"40", "60", "35", "30"}) + z +
+                 feed());
     case 1:  // a quarter from one axis' direction to the next
       if (way % 2 != 0) break;
       {
