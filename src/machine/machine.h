@@ -352,6 +352,7 @@ struct SetupStock {
   RawStock raw;           ///< shape and sizes; `mesh` only once it is placed
   std::string mesh_path;  ///< of a mesh, relative to the setup's folder
   MeshFileOptions mesh_options;
+  SourceSpan mesh_span;
   std::string replaces;  ///< a body that only stands for the piece in pictures; it goes
   SourceSpan replaces_span;
   std::string fixture;  ///< whose frame `place` and `angle` are seen from; empty: M

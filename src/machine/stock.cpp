@@ -92,6 +92,7 @@ void read_shape(config::Table& table, SetupStock& stock, double unit_mm) {
   if (given[0] != "mesh") return;
   raw.shape = StockShape::mesh;
   stock.mesh_path = table.text("mesh", "");
+  stock.mesh_span = table.span("mesh");
   stock.mesh_options = read_mesh_options(table, unit_mm);
   if (stock.mesh_path.empty()) table.error("mesh", "'mesh' needs the path of a mesh file");
 }
@@ -148,11 +149,12 @@ void place_stock(const SetupStock& stock, const PackageFiles& files, Machine& ma
     auto mesh = files.mesh(stock.mesh_path, stock.mesh_options);
     if (!mesh) {
       Diagnostic error = mesh.error();
-      error.span = raw.span;
+      error.kind = "setup_invalid";  // the file is the set-up's, not the machine's
+      error.span = stock.mesh_span;
       return out.add(error);
     }
     if (!without_border(**mesh) || volume(**mesh) <= 0)
-      return fail(raw.span,
+      return fail(stock.mesh_span,
                   "the mesh of the stock must be closed and face outwards: what is "
                   "inside of it is not defined otherwise");
     raw.mesh = *mesh;

@@ -201,7 +201,7 @@ struct FrameMaker::Impl {
            scene.machine().X_LM();
   }
 
-  render::Scene picture(const Snapshot& shot) {
+  Expected<render::Scene> picture(const Snapshot& shot) {
     if (scene.loaded_tool() != shot.tool) scene.load_tool(shot.tool);
     render::Scene out;
     out.bodies = draw_bodies(scene, shot.joints);
@@ -209,7 +209,11 @@ struct FrameMaker::Impl {
       for (std::size_t i = 0, k = 0; i < scene.bodies().size(); ++i) {
         const machine::Body& body = scene.bodies()[i].body;
         if (!body.mesh) continue;
-        if (body.role == machine::Role::stock) out.bodies[k].mesh = stock->at(shot.t);
+        if (body.role == machine::Role::stock) {
+          auto mesh = stock->at(shot.t);
+          if (!mesh) return unexpected(mesh.error());
+          out.bodies[k].mesh = std::move(*mesh);
+        }
         ++k;
       }
     out.lines = path.lines(X_WM(shot.joints), shot.t);
@@ -363,7 +367,9 @@ std::vector<FrameMaker::Impl::Job> FrameMaker::Impl::jobs_of(
 }
 
 Expected<render::Image> FrameMaker::Impl::draw(const Job& job, render::Renderer& renderer) {
-  render::Scene drawn = picture(job.shot);
+  auto scene_then = picture(job.shot);
+  if (!scene_then) return unexpected(scene_then.error());
+  render::Scene& drawn = *scene_then;
   if (!job.finding) {
     const auto camera = camera_for(job.shot, drawn);
     if (!camera) return unexpected(camera.error());

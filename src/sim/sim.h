@@ -198,7 +198,8 @@ class StockHistory {
  public:
   virtual ~StockHistory() = default;
   /// Its surface at program time t, in the frame of the stock's body. Times must not go back.
-  virtual std::shared_ptr<const TriangleMesh> at(double t) = 0;
+  /// Errors: `output_failed`, or what Stock::cut says.
+  virtual Expected<std::shared_ptr<const TriangleMesh>> at(double t) = 0;
 };
 
 /// Looks at everything and writes it down.

@@ -173,9 +173,6 @@ class Stock {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Texts of the kinds of errors of this library.
-const std::vector<KindText>& stock_kinds();
-
 /// A circular arc or a helix.
 struct Arc {
   Vec3 start = Vec3::Zero(), end = Vec3::Zero();

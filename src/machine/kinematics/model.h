@@ -48,6 +48,11 @@ struct BasicModel {
                " is not possible on this machine: " + possible;
     return std::nullopt;
   }
+  /// For types whose tools are along the spindle.
+  static std::optional<std::string> wrong_offset_but_z(AxisValues offset) {
+    offset[Axis::z] = 0;
+    return wrong_offset_beyond(offset, 0, "tools are along the spindle (Z)");
+  }
 };
 
 /// A model has, beside the names of BasicModel:

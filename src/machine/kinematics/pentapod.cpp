@@ -36,11 +36,7 @@ struct Pentapod : BasicModel {
   }
   int passive_count() const { return passives; }
   std::optional<std::string> wrong_offset(const AxisValues& offset) const {
-    for (const Axis axis : {Axis::x, Axis::y})
-      if (offset[axis] != 0)
-        return std::string("a tool offset in ") + letter(axis) +
-               " is not possible on this machine: tools are along the spindle (Z)";
-    return wrong_offset_beyond(offset, 3, "tools are along the spindle (Z)");
+    return wrong_offset_but_z(offset);
   }
   std::optional<Vec3> tool_axis(const AxisValues& tip) const {
     const double a = tip[Axis::a], b = tip[Axis::b];

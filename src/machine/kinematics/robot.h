@@ -46,11 +46,7 @@ struct RobotModel : BasicModel {
 
   bool rotary(int) const { return true; }
   std::optional<std::string> wrong_offset(const AxisValues& offset) const {
-    for (const Axis axis : {Axis::x, Axis::y})
-      if (offset[axis] != 0)
-        return std::string("a tool offset in ") + letter(axis) +
-               " is not possible on this machine: tools are along the spindle (Z)";
-    return wrong_offset_beyond(offset, 3, "tools are along the spindle (Z)");
+    return wrong_offset_but_z(offset);
   }
   std::optional<Vec3> tool_axis(const AxisValues& tip) const {
     return tool_direction(tip[Axis::a], tip[Axis::b]);

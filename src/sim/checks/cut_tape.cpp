@@ -30,23 +30,26 @@ class Player final : public StockHistory {
     more_ = read();
   }
 
-  std::shared_ptr<const TriangleMesh> at(double t) override {
+  Expected<std::shared_ptr<const TriangleMesh>> at(double t) override {
     std::vector<stock::Piece> pieces;
-    bool changed = false;
-    const auto cut = [&] {
-      if (pieces.empty()) return;
-      // What could be cut in the run can be cut on the coarser lattice.
-      changed = stock_.cut(pieces).has_value() || changed;
+    bool changed = !mesh_;
+    const auto cut = [&]() -> Expected<void> {
+      if (pieces.empty()) return {};
+      changed = true;
+      if (auto done = stock_.cut(pieces); !done) return unexpected(done.error());
       pieces.clear();
+      return {};
     };
     while (more_ && next_.t <= t) {
       pieces.push_back(
           {(*cutters_)[next_.cutter].get(), vec(next_.start), vec(next_.end), vec(next_.axis), 0});
-      if (pieces.size() == 4096) cut();
+      if (pieces.size() == 4096)
+        if (auto done = cut(); !done) return unexpected(done.error());
       more_ = read();
     }
-    cut();
-    if (!mesh_ || changed) mesh_ = std::make_shared<TriangleMesh>(stock_.mesh());
+    if (std::ferror(file_.get()) != 0) return unexpected(disk_error("can't read a temporary file"));
+    if (auto done = cut(); !done) return unexpected(done.error());
+    if (changed) mesh_ = std::make_shared<TriangleMesh>(stock_.mesh());
     return mesh_;
   }
 

@@ -407,7 +407,7 @@ void CuttingCheck::finish(Summary& summary) {
   if (!raw_) return;
   if (stock()) flush();
   if (!stock()) {
-    summary.unchecked.push_back("what the cutter takes from the stock: " + given_up_);
+    if (!told_) summary.unchecked.push_back("what the cutter takes from the stock: " + given_up_);
     return;
   }
   Summary::Stock s;
