@@ -104,7 +104,7 @@ std::string excerpt(const SourceSpan& span, const std::string& remark, TextStyle
         break;
       }
       out += printable(frame->site.text ? frame->site.text->name() : "?") + ":" +
-             std::to_string(frame->site.line) + ", " + printable(frame->what);
+             std::to_string(frame->site.line) + ", " + printable(frame->text());
     }
     out += ")";
   }

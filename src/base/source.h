@@ -86,8 +86,12 @@ struct SourceSpan {
 
 /// One step of the way to a place: a call, or a pass of a loop.
 struct CallFrame {
-  SourceSpan site;   ///< the calling block or the loop's head; its own `calls` go on outwards
-  std::string what;  ///< e.g. "o<pocket> call [3]", "o100 while, pass 12"
+  SourceSpan site;         ///< the calling block or the loop's head; its own `calls` go on outwards
+  std::string what;        ///< e.g. "o<pocket> call [3]", "o100 while"
+  std::uint64_t pass = 0;  ///< of a loop, from 1; 0: a call
+
+  /// `what` with the pass: "o100 while, pass 12".
+  std::string text() const { return pass == 0 ? what : what + ", pass " + std::to_string(pass); }
 };
 
 /// Owns all texts of a run.

@@ -18,9 +18,22 @@ constexpr bool is_rotary(Axis axis) { return axis >= Axis::a && axis <= Axis::c;
 constexpr char letter(Axis axis) { return "XYZABCUVW"[index(axis)]; }
 /// The axis of a letter of either case, or nothing.
 constexpr std::optional<Axis> axis_of_letter(char c) {
-  for (const Axis axis : all_axes)
-    if (c == letter(axis) || c == letter(axis) + 32) return axis;
-  return std::nullopt;
+  switch (c | 32) {
+    case 'x':
+    case 'y':
+    case 'z':
+      return static_cast<Axis>((c | 32) - 'x');
+    case 'a':
+    case 'b':
+    case 'c':
+      return static_cast<Axis>((c | 32) - 'a' + 3);
+    case 'u':
+    case 'v':
+    case 'w':
+      return static_cast<Axis>((c | 32) - 'u' + 6);
+    default:
+      return std::nullopt;
+  }
 }
 
 /// One number per axis: mm for X Y Z U V W, rad for A B C.

@@ -56,7 +56,7 @@ void Interpreter::Impl::start_contour_range(const FlowRequest& request,
 
 // True when the last block of a range has been read.
 bool Interpreter::Impl::leave_contour_range() {
-  if (contour_frame_ < 0 || contour_frame_ + 1 != static_cast<int>(frames_.size())) return false;
+  if (contour_frame_ + 1 != static_cast<int>(frames_.size())) return false;
   const Frame& frame = frames_.back();
   if (!frame.reading->last || frame.at <= frame.reading->last->begin) return false;
   std::unique_ptr<ContourReading> reading = std::move(frames_.back().reading);

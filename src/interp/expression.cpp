@@ -19,7 +19,15 @@ constexpr const char* not_finite = "the result is not a finite number; keep it b
 
 // The control counts in long double. That shows at whole quarter turns only: sin[180] and cos[90]
 // are not 0 there, and tan[90] is finite.
-bool is_quarter_turn(double degrees) { return degrees / 90 == std::floor(degrees / 90); }
+bool is_quarter_turn(double degrees) {
+  const double quarters = degrees * (1.0 / 90);
+  if (std::fabs(quarters) < 1e9) {  // most are far off: told without a division
+    constexpr double to_integer = 0x1.8p52;
+    const double nearest = (quarters + to_integer) - to_integer;
+    if (std::fabs(quarters - nearest) > 1e-3) return false;
+  }
+  return degrees / 90 == std::floor(degrees / 90);
+}
 long double radians(double degrees) { return degrees * std::numbers::pi_v<long double> / 180; }
 double sine(double x) {
   return is_quarter_turn(x) ? static_cast<double>(std::sin(radians(x))) : std::sin(x * degree);
@@ -206,6 +214,13 @@ bool Machine::step(const Instruction& at) {
 
 }  // namespace
 
+namespace {
+
+// An operation together with the place of its right operand: one jump for both.
+constexpr int key(Op op, Right right) { return static_cast<int>(op) * 3 + static_cast<int>(right); }
+
+}  // namespace
+
 // The top of the stack is kept in a register. What loops are made of is done here; the rest by the
 // machine, which sees the same stack.
 std::optional<double> evaluate(const Value& value, const Code& code, const Parameters& parameters,
@@ -220,51 +235,79 @@ std::optional<double> evaluate(const Value& value, const Code& code, const Param
   };
   const Instruction* at = code.data() + value.first;
   const Instruction* const end = at + value.count;
+  const auto parameter = [&] { return parameters.stored(at->id); };
   for (; at != end; ++at) {
-    double right = top;
-    if (at->right != Right::stack)
-      right = at->right == Right::number ? at->number : parameters.stored(at->id);
-    const auto left = [&] { return at->right == Right::stack ? *--below : top; };
-    switch (at->op) {
-      case Op::number:
+    switch (key(at->op, at->right)) {
+      case key(Op::number, Right::stack):
         push(at->number);
         continue;
-      case Op::less:
-        top = left() < right ? 1 : 0;
+      case key(Op::less, Right::stack):
+        top = *--below < top ? 1 : 0;
         continue;
-      case Op::add:
-        top = left() + right;
+      case key(Op::less, Right::number):
+        top = top < at->number ? 1 : 0;
+        continue;
+      case key(Op::less, Right::parameter):
+        top = top < parameter() ? 1 : 0;
+        continue;
+      case key(Op::add, Right::stack):
+        top = *--below + top;
         break;
-      case Op::subtract:
-        top = left() - right;
+      case key(Op::add, Right::number):
+        top = top + at->number;
         break;
-      case Op::multiply:
-        top = left() * right;
+      case key(Op::add, Right::parameter):
+        top = top + parameter();
         break;
-      case Op::divide:
+      case key(Op::subtract, Right::stack):
+        top = *--below - top;
+        break;
+      case key(Op::subtract, Right::number):
+        top = top - at->number;
+        break;
+      case key(Op::subtract, Right::parameter):
+        top = top - parameter();
+        break;
+      case key(Op::multiply, Right::stack):
+        top = *--below * top;
+        break;
+      case key(Op::multiply, Right::number):
+        top = top * at->number;
+        break;
+      case key(Op::multiply, Right::parameter):
+        top = top * parameter();
+        break;
+      case key(Op::divide, Right::stack):
+      case key(Op::divide, Right::number):
+      case key(Op::divide, Right::parameter): {
+        const double right = at->right == Right::stack    ? top
+                             : at->right == Right::number ? at->number
+                                                          : parameter();
         if (right == 0) {
           machine.fail(*at, "division by zero; the divisor must not be 0");
           return std::nullopt;
         }
-        top = left() / right;
+        top = (at->right == Right::stack ? *--below : top) / right;
         break;
-      case Op::negate:
+      }
+      case key(Op::negate, Right::stack):
         top = -top;
         continue;
-      case Op::cos:
+      case key(Op::cos, Right::stack):
         top = cosine(top);
         break;
-      case Op::sin:
+      case key(Op::sin, Right::stack):
         top = sine(top);
         break;
-      case Op::read:
+      case key(Op::read, Right::stack):
         if (Parameters::always_readable(at->id)) {
-          push(parameters.stored(at->id));
+          push(parameter());
           continue;
         }
         [[fallthrough]];
       default:
-        if (at->right != Right::stack) push(right);
+        if (at->right == Right::number) push(at->number);
+        if (at->right == Right::parameter) push(parameter());
         push(0);  // puts the top on the machine's stack
         machine.depth = static_cast<std::size_t>(below - machine.stack.data());
         if (!machine.step(*at)) return std::nullopt;

@@ -2,7 +2,7 @@
 // that are running in it.
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -173,6 +173,7 @@ void Interpreter::Impl::pass_branches(Block& block, int at) {
 // The running loop of the entry; loops inside it that were left by a jump are forgotten.
 Loop* Interpreter::Impl::loop_at(int at) {
   auto& loops = frames_.back().loops;
+  if (!loops.empty() && loops.back().entry == at) return &loops.back();
   const auto found = std::find_if(loops.rbegin(), loops.rend(),
                                   [&](const Loop& loop) { return loop.entry == at; });
   if (found == loops.rend()) return nullptr;
@@ -323,7 +324,12 @@ std::shared_ptr<const CallFrame> Interpreter::Impl::current_calls() {
   Frame& frame = frames_.back();
   std::shared_ptr<const CallFrame> calls = frame.calls;
   for (Loop& loop : frame.loops) {
-    if (!loop.frame || loop.frame_pass != loop.pass) {
+    if (loop.frame && loop.frame->pass != loop.pass && loop.frame.use_count() == 1) {
+      // Nobody else has kept the pass before, so its frame serves for this one.
+      std::atomic_thread_fence(std::memory_order_acquire);
+      loop.frame->pass = loop.pass;
+      loop.frame->site.calls = std::move(calls);
+    } else if (!loop.frame || loop.frame->pass != loop.pass) {
       const FlowEntry& head = entry(loop.entry);
       auto made = std::make_shared<CallFrame>();
       made->site.text = frame.file->text;
@@ -332,17 +338,12 @@ std::shared_ptr<const CallFrame> Interpreter::Impl::current_calls() {
       made->site.line = head.line;
       made->site.calls = std::move(calls);
       if (loop.title.empty())
-        loop.title = (head.keyword == Keyword::while_do
-                          ? "DO" + head.label
-                          : written_label(head.label) + ' ' + word_of(head.keyword)) +
-                     ", pass ";
-      std::array<char, 20> digits;
-      char* const end = std::to_chars(digits.begin(), digits.end(), loop.pass).ptr;
-      made->what.reserve(loop.title.size() + digits.size());
+        loop.title = head.keyword == Keyword::while_do
+                         ? "DO" + head.label
+                         : written_label(head.label) + ' ' + word_of(head.keyword);
       made->what = loop.title;
-      made->what.append(digits.begin(), end);
+      made->pass = loop.pass;
       loop.frame = std::move(made);
-      loop.frame_pass = loop.pass;
     }
     calls = loop.frame;
   }

@@ -33,10 +33,9 @@ struct ProgramFile {
 struct Loop {
   int entry = -1;  ///< while, do or repeat
   std::uint64_t pass = 1;
-  std::uint64_t passes = 0;                     ///< repeat: how many
-  std::shared_ptr<const CallFrame> frame = {};  ///< of pass `frame_pass`, made when somebody asks
-  std::uint64_t frame_pass = 0;
-  std::string title = {};  ///< `o100 while, pass `, with the first frame
+  std::uint64_t passes = 0;               ///< repeat: how many
+  std::shared_ptr<CallFrame> frame = {};  ///< of a pass, made when somebody asks
+  std::string title = {};                 ///< `o100 while`, with the first frame
 };
 
 /// A cycle that waits for its contour (contour_reading.cpp).
@@ -100,7 +99,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   Impl(const SourceText& program, const tool::ToolTable& tools, const ParameterFile& file,
        Options options, SourceReader reader, Diagnostics& diagnostics);
 
-  std::optional<canon::Command> next();
+  canon::Command* next();
   void resume(const ProbeHit& hit);
   ParameterFile parameters() const;
   Statistics statistics() const { return statistics_; }

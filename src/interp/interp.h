@@ -128,10 +128,11 @@ class Interpreter {
   Interpreter(const Interpreter&) = delete;
   Interpreter& operator=(const Interpreter&) = delete;
 
-  /// The next command, or nothing at the end of the program (or after an error when !keep_going,
-  /// or a reached limit). Errors are in the diagnostics. The first commands describe the start
-  /// state (units, work offset, plane, feed mode …), so that a stream stands on its own.
-  std::optional<canon::Command> next();
+  /// The next command, or null at the end of the program (or after an error when !keep_going, or a
+  /// reached limit). It is the caller's to move from and stays until the next call. Errors are in
+  /// the diagnostics. The first commands describe the start state (units, work offset, plane, feed
+  /// mode …), so that a stream stands on its own.
+  canon::Command* next();
 
   /// Result of the Probe command that next() handed out last.
   void resume(const ProbeHit& hit);

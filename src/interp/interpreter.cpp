@@ -38,7 +38,7 @@ Interpreter::Interpreter(const SourceText& program, const tool::ToolTable& tools
     : impl_(std::make_unique<Impl>(program, tools, parameters, std::move(options),
                                    std::move(reader), diagnostics)) {}
 Interpreter::~Interpreter() = default;
-std::optional<canon::Command> Interpreter::next() { return impl_->next(); }
+canon::Command* Interpreter::next() { return impl_->next(); }
 void Interpreter::resume(const ProbeHit& hit) { impl_->resume(hit); }
 ParameterFile Interpreter::parameters() const { return impl_->parameters(); }
 Interpreter::Statistics Interpreter::statistics() const { return impl_->statistics(); }
@@ -47,14 +47,14 @@ std::vector<Interpreter::CodeCount> Interpreter::code_counts() const {
   return impl_->code_counts();
 }
 
-std::optional<canon::Command> Interpreter::Impl::next() {
+canon::Command* Interpreter::Impl::next() {
   while (head_ >= queue_.size()) {
     queue_.clear();
     head_ = 0;
-    if (done_) return std::nullopt;
+    if (done_) return nullptr;
     step();
   }
-  return std::move(queue_[head_++]);
+  return &queue_[head_++];
 }
 
 // ---- lines -----------------------------------------------------------------------------------
@@ -152,7 +152,7 @@ bool Interpreter::Impl::is_percent_line(const ProgramFile& file, std::string_vie
 }
 
 void Interpreter::Impl::step() {
-  if (leave_contour_range()) return;
+  if (contour_frame_ >= 0 && leave_contour_range()) return;
   const Frame& frame = frames_.back();
   if (frame.at >= frame.file->text->content().size()) return end_of_file();
   Block* block = fetch();
@@ -291,7 +291,7 @@ bool Interpreter::Impl::plain_settings(const Block& block) {
   for (std::size_t i = 0; i < block.settings.size(); ++i) {
     const Setting& setting = block.settings[i];
     if (setting.plain > 0)
-      parameters_.write(setting.plain, values[i]);
+      parameters_.write_for_good(setting.plain, values[i]);
     else
       parameters_.write_named(setting.name, values[i]);
   }
@@ -466,6 +466,7 @@ const SourceSpan& Interpreter::Impl::span() {
     span_.begin = block_ ? block_->begin : 0;
     span_.length = block_ ? block_->length : 0;
     span_.line = block_ ? block_->line : 0;
+    span_.calls.reset();
     span_.calls = current_calls();
     span_valid_ = true;
   }

@@ -13,9 +13,10 @@ namespace {
 constexpr std::array<double, 16> powers_of_ten = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                                   1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
 
-constexpr int most_digits = 15;
+constexpr std::size_t most_digits = 15;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return c >= 'a' && c <= 'z'; }
 
 }  // namespace
 
@@ -42,9 +43,9 @@ bool Cursor::read_digits(double& number) {
     const char* const first = at;
     for (; at != end && is_digit(*at); ++at)
       mantissa = mantissa * 10 + static_cast<unsigned>(*at - '0');
-    return at - first;
+    return static_cast<std::size_t>(at - first);
   };
-  std::ptrdiff_t digits = take_digits(), decimals = 0;
+  std::size_t digits = take_digits(), decimals = 0;
   const bool point = at != end && *at == '.';
   if (point) {
     ++at;
@@ -58,7 +59,40 @@ bool Cursor::read_digits(double& number) {
   if (digits == 0) return false;
   at_ = static_cast<std::size_t>(next - line_.data());
   number = static_cast<double>(mantissa);
-  if (decimals > 0) number /= powers_of_ten[static_cast<std::size_t>(decimals)];
+  if (decimals > 0) number /= powers_of_ten[decimals];
+  return true;
+}
+
+bool Cursor::read_plain_number(double& number, std::uint32_t& end_of_number) {
+  const char* const text = line_.data();
+  const char* const end = text + line_.size();
+  const char* at = text + at_;
+  const bool minus = at != end && *at == '-';
+  if (minus) ++at;             // a blank behind it is not for us
+  std::uint64_t mantissa = 0;  // of too many digits nothing is used
+  const auto take_digits = [&] {
+    const char* const first = at;
+    for (; at != end; ++at) {
+      const auto digit = static_cast<std::uint64_t>(static_cast<unsigned char>(*at)) - '0';
+      if (digit > 9) break;
+      mantissa = mantissa * 10 + digit;
+    }
+    return static_cast<std::size_t>(at - first);
+  };
+  std::size_t digits = take_digits(), decimals = 0;
+  if (at != end && *at == '.') {
+    ++at;
+    decimals = take_digits();
+    digits += decimals;
+  }
+  if (digits == 0 || digits > most_digits) return false;
+  end_of_number = static_cast<std::uint32_t>(at - text);
+  while (at != end && (*at == ' ' || *at == '\t')) ++at;
+  if (at != end && !is_letter(lower(*at))) return false;
+  number = static_cast<double>(static_cast<std::int64_t>(mantissa));
+  if (decimals > 0) number /= powers_of_ten[decimals];
+  if (minus) number = -number;
+  at_ = static_cast<std::size_t>(at - text);
   return true;
 }
 

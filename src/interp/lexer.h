@@ -44,6 +44,10 @@ class Cursor {
   /// A number without sign: digits with at most one point. False (and no advance) when there is
   /// none.
   bool read_digits(double& number);
+  /// The number of a plain word: up to 15 digits with at most one point and perhaps a minus, then
+  /// the end of the line or a letter. Gives its last byte's successor in `end`. Anything else:
+  /// false, and no advance.
+  bool read_plain_number(double& number, std::uint32_t& end);
 
  private:
   bool read_long_digits(double& number);

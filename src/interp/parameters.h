@@ -73,6 +73,8 @@ class Parameters {
   /// A stored value, for numbers that are not computed.
   double stored(int n) const { return values_[static_cast<std::size_t>(n)]; }
   void write(int n, double value);
+  /// Without a way back.
+  void write_for_good(int n, double value) { values_[static_cast<std::size_t>(n)] = value; }
 
   /// Variables of macro B that a program may use for what it likes.
   static bool is_macro_variable(int n) {

@@ -108,8 +108,13 @@ bool LineParser::misplaced_word(char letter) {
 }
 
 bool LineParser::read_word(Word& word) {
-  if (!value(word.text)) return false;
-  word.place.length = in_.length_since(word.place.begin);
+  std::uint32_t end = 0;
+  if (in_.read_plain_number(word.text.number, end)) {
+    word.place.length = end - word.place.begin;
+  } else {
+    if (!value(word.text)) return false;
+    word.place.length = in_.length_since(word.place.begin);
+  }
   return add_word(word);
 }
 

@@ -192,7 +192,7 @@ class BlockRun {
   template <class A>
   void emit_now(A action, std::string expanded = {}) {
     canon::Command& command = out_.emplace_back();  // filled in where it stays
-    command.action = std::move(action);
+    command.action.template emplace<A>(std::move(action));
     command.span = span();
     command.block = block_of_command();
     if (!expanded.empty()) command.expanded = std::move(expanded);

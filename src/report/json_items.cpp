@@ -26,7 +26,7 @@ Json place(const SourceSpan& span) {
   for (const CallFrame* frame = span.calls.get(); frame; frame = frame->site.calls.get())
     calls.push_back({{"file", utf8(frame->site.text ? frame->site.text->name() : "")},
                      {"line", frame->site.line},
-                     {"what", utf8(frame->what)}});
+                     {"what", utf8(frame->text())}});
   return {{"file", utf8(span.text->name())},
           {"line", span.line},
           {"column", span.column()},

@@ -104,7 +104,7 @@ class Writer {
     for (const CallFrame* frame = span.calls.get(); frame; frame = frame->site.calls.get()) {
       if (!frame->site) continue;
       Json place = location(frame->site);
-      place["message"] = {{"text", printable(frame->what)}};
+      place["message"] = {{"text", printable(frame->text())}};
       out.push_back(std::move(place));
     }
     return out;

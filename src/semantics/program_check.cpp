@@ -60,6 +60,10 @@ bool is_feed(const Action& action) {
          std::holds_alternative<canon::SyncFeed>(action);
 }
 
+SourceSpan without_calls(const SourceSpan& span) {
+  return {span.text, span.begin, span.length, span.line};
+}
+
 // Does a line have one of these words? Expressions for codes are rare enough to count as no.
 bool has_code(const SourceSpan& line, char letter, std::initializer_list<double> numbers) {
   return std::any_of(numbers.begin(), numbers.end(),
@@ -186,7 +190,7 @@ ProgramCheck::~ProgramCheck() = default;
 void ProgramCheck::see(const Command& command) {
   State& s = *state_;
   s.read_refusals();
-  if (command.span) s.last = command.span;
+  if (command.span) s.last = without_calls(command.span);
   if (canon::is_motion(command.action)) s.before_motion();
   if (is_feed(command.action)) s.before_cut(command);
   std::visit([&](const auto& action) { s.on(action, command); }, command.action);

@@ -90,9 +90,9 @@ TEST(Interpreter, CommandsOfLoopsAndCallsSayHowTheyWereReached) {
   ASSERT_EQ(ran.texts[1], "rapid X2 Y0 Z0");
   const CallFrame* frame = ran.commands[1].span.calls.get();
   ASSERT_TRUE(frame);
-  EXPECT_EQ(frame->what, "o100 while, pass 2");
+  EXPECT_EQ(frame->text(), "o100 while, pass 2");
   ASSERT_TRUE(frame->site.calls);
-  EXPECT_EQ(frame->site.calls->what, "o<pocket> call [3] [1]");
+  EXPECT_EQ(frame->site.calls->text(), "o<pocket> call [3] [1]");
   EXPECT_EQ(frame->site.calls->site.line, 7u);
   EXPECT_FALSE(frame->site.calls->site.calls);
 }

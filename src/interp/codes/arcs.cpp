@@ -34,13 +34,19 @@ PlaneWords offset_words(canon::Plane plane) {
   }
 }
 
+// std::hypot without its care for numbers near the ends of the range, where it is not needed.
+double distance(double a, double b) {
+  const double square = a * a + b * b;
+  return square > 1e-200 && square < 1e200 ? std::sqrt(square) : std::hypot(a, b);
+}
+
 std::string mm(double value) { return fixed(value, 4) + " mm"; }
 
 std::optional<Point> centre_from_radius(BlockRun& run, const CodeRule& rule, Point start,
                                         Point end) {
   const double r = run.length('R');
   const double chord_a = end.a - start.a, chord_b = end.b - start.b;
-  const double chord = std::hypot(chord_a, chord_b);
+  const double chord = distance(chord_a, chord_b);
   const double scale = run.state.unit == canon::Unit::inch ? 25.4 * 0.00005 : 0.00127;
   if (chord < 1e-9) {
     run.error(
@@ -55,11 +61,11 @@ std::optional<Point> centre_from_radius(BlockRun& run, const CodeRule& rule, Poi
                   mm(std::fabs(r)) + "; the radius must be at least " + mm(half));
     return std::nullopt;
   }
-  const double distance = std::sqrt(std::max(0.0, r * r - half * half));
+  const double height = std::sqrt(std::max(0.0, r * r - half * half));
   const bool left = (rule.code == 30) == (r > 0);
   const double sign = left ? 1 : -1;
-  return Point{start.a + chord_a / 2 - sign * distance * chord_b / chord,
-               start.b + chord_b / 2 + sign * distance * chord_a / chord};
+  return Point{start.a + chord_a / 2 - sign * height * chord_b / chord,
+               start.b + chord_b / 2 + sign * height * chord_a / chord};
 }
 
 std::optional<Point> centre_from_offsets(BlockRun& run, const CodeRule& rule, Point start) {
@@ -77,8 +83,8 @@ std::optional<Point> centre_from_offsets(BlockRun& run, const CodeRule& rule, Po
 
 // Start and end must lie on one circle, within the tolerance (interp.md 8).
 bool radii_agree(BlockRun& run, const CodeRule& rule, Point start, Point end, Point centre) {
-  const double r1 = std::hypot(start.a - centre.a, start.b - centre.b);
-  const double r2 = std::hypot(end.a - centre.a, end.b - centre.b);
+  const double r1 = distance(start.a - centre.a, start.b - centre.b);
+  const double r2 = distance(end.a - centre.a, end.b - centre.b);
   const bool inch = run.state.unit == canon::Unit::inch;
   const double tolerance =
       inch ? run.session.options.arc_tolerance_inch * 25.4 : run.session.options.arc_tolerance;
@@ -191,7 +197,7 @@ void arc(const CodeRule& rule, BlockRun& run) {
   plane.add(axes.second);
   depth.add(axes.normal);
   const bool aligned = moved_by(state, depth) == depth;
-  if (aligned && std::hypot(b.a - a.a, b.b - a.b) < 1e-9)
+  if (aligned && distance(b.a - a.a, b.b - a.b) < 1e-9)
     for (const Axis axis : all_axes)
       if (moved_by(state, plane).has(axis)) move.end[axis] = state.programmed_tip()[axis];
   move.arc.end = move.end;

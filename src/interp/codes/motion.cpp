@@ -80,7 +80,8 @@ std::optional<AxisValues> named_target(BlockRun& run) {
   const bool polar = run.has('@') || run.has('^');
   if (state.rotation == 0 && !state.frame.active() && !state.turn_was_left && !polar &&
       !state.polar.on) {
-    AxisValues tip = start;
+    std::optional<AxisValues> target(start);  // filled in where it is handed out
+    AxisValues& tip = *target;
     const bool lathe = run.session.table.lathe();
     if (lathe)
       for (const Axis axis : {Axis::x, Axis::y, Axis::z})
@@ -93,7 +94,7 @@ std::optional<AxisValues> named_target(BlockRun& run) {
       tip[axis] =
           state.incremental ? tip[axis] + value : value + state.g92[axis] + state.work_offset[axis];
     }
-    return tip;
+    return target;
   }
   AxisValues program = to_program(state, start);
   AxisSet named;
