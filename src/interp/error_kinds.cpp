@@ -233,9 +233,9 @@ const std::vector<KindText>& error_kinds() {
       {"sub_reached", "the main program runs into a sub",
        "A sub that was called before its definition must lie behind the end of the main program. "
        "Example: no M2 before `o1 sub`."},
-      {"thread_error", "G76 with impossible words",
-       "I is not 0, J above 0, K above J, tapers shorter than the thread. Example: `K` smaller "
-       "than `J`."},
+      {"thread_error", "a thread with impossible words",
+       "The pitch (K of G33 and G33.1, P of G76) is above 0. G76: I is not 0, J above 0, K above "
+       "J, tapers shorter than the thread. Example: `K` smaller than `J`."},
       {"too_many_m", "more than four M words",
        "Put the others on a line of their own. Example: `M3 M8 M48 M64 P1 M0`."},
       {"time_unknown", "a timer that is read before the run",

@@ -48,6 +48,7 @@ class Cycle : private HoleMotion {
   void bore_by_hand();
 
   double r_ = 0, z_ = 0, clear_ = 0;
+  double polar_a_ = 0, polar_b_ = 0;  // the hole of the polar words
 };
 
 bool Cycle::allowed() {
@@ -251,10 +252,15 @@ void Cycle::repeat(int number, int repeats) {
   if (const auto value = coordinate(axes_.first)) a = state_.incremental ? a_ + *value : *value;
   if (const auto value = coordinate(axes_.second)) b = state_.incremental ? b_ + *value : *value;
   if (run_.has('@') || run_.has('^')) {
-    double x = a * unit_, y = b * unit_;
-    if (!apply_polar(run_, x, y)) return;
-    a = x / unit_;
-    b = y / unit_;
+    // With G90 all repeats are at the same place: what is not named is taken from the line's start.
+    if (state_.incremental || number == 1) {
+      double x = a * unit_, y = b * unit_;
+      if (!apply_polar(run_, x, y)) return;
+      polar_a_ = x / unit_;
+      polar_b_ = y / unit_;
+    }
+    a = polar_a_;
+    b = polar_b_;
   }
   // From R or below it the way to the hole rises to the level of retraction on the way.
   move(true, a, b, c_ > r_ ? c_ : clear_, "to the hole");

@@ -212,12 +212,22 @@ bool has_axes(BlockRun& run, const CodeRule& rule) {
   return false;
 }
 
+// With a K of 0 or less the control waits forever for a spindle position at which to move on.
+bool has_pitch(BlockRun& run, const CodeRule& rule) {
+  if (run.has('K') && *run.number('K') > 0) return true;
+  if (run.has('K'))
+    run.error("thread_error", 'K',
+              "K of " + name_of(rule) +
+                  ", the distance per revolution, must be above 0, or the move never ends");
+  else
+    run.error("word_missing", rule, name_of(rule) + " needs K: the distance per revolution");
+  return false;
+}
+
 }  // namespace
 
 void thread(const CodeRule& rule, BlockRun& run) {
-  if (refuse_with_comp(run, rule) || !has_axes(run, rule)) return;
-  if (!run.has('K'))
-    return run.error("word_missing", rule, "G33 needs K: the distance per revolution");
+  if (refuse_with_comp(run, rule) || !has_axes(run, rule) || !has_pitch(run, rule)) return;
   const auto spindle = spindle_of(run, 0);
   if (!spindle || !spindle_turns(run, rule, *spindle)) return;
   if (run.has('F'))
@@ -235,9 +245,7 @@ void thread(const CodeRule& rule, BlockRun& run) {
 
 // The position after rigid tapping is where it began, but for rotary axes.
 void rigid_tap(const CodeRule& rule, BlockRun& run) {
-  if (refuse_with_comp(run, rule) || !has_axes(run, rule)) return;
-  if (!run.has('K'))
-    return run.error("word_missing", rule, "G33.1 needs K: the distance per revolution");
+  if (refuse_with_comp(run, rule) || !has_axes(run, rule) || !has_pitch(run, rule)) return;
   const auto spindle = spindle_of(run, 0);
   if (!spindle || !spindle_turns(run, rule, *spindle)) return;
   if (run.has('F'))

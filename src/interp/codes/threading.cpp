@@ -68,6 +68,9 @@ bool Thread::read_words() {
   degression_ = std::max(1.0, run_.number_or('R', 1));
   const double angle = run_.number_or('Q', 0);
   taper_ = run_.length('E');
+  if (pitch_ <= 0)
+    return fail("thread_error", run_.place('P'),
+                "P of G76, the distance per revolution, must be above 0, or the cut never ends");
   if (peak_ == 0)
     return fail("thread_error", run_.place('I'),
                 "I of G76 can't be 0; negative is an outside, positive an inside thread");
