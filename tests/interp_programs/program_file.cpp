@@ -185,7 +185,8 @@ std::vector<ProgramFile> read_program_folder(const std::string& folder) {
   return programs;
 }
 
-Outcome run_program(const ProgramFile& program, bool keep_going, const std::string& sub_folder) {
+Outcome run_program(const ProgramFile& program, bool keep_going, const std::string& sub_folder,
+                    const ProbeModel& model) {
   Outcome outcome;
   SourceMap sources;
   const SourceText& text = sources.add(program.name + ".ngc", program.text);
@@ -201,9 +202,9 @@ Outcome run_program(const ProgramFile& program, bool keep_going, const std::stri
   canon::Rs274Writer writer(options.start_unit);
   while (auto command = interpreter.next()) {
     outcome.rs274 += writer.write(*command);
-    // Probing meets nothing here: the move ends at its target.
+    auto hit = model ? model(*command) : std::nullopt;
     if (const auto* probe = std::get_if<canon::Probe>(&command->action))
-      interpreter.resume({probe->end, false});
+      interpreter.resume(hit ? *hit : interp::ProbeHit{probe->end, false});
     outcome.commands.push_back(std::move(*command));
   }
   outcome.rs274 += writer.finish();

@@ -1,6 +1,7 @@
 // A program whose comments say what must come out of each line. The form is explained in README.md.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -56,8 +57,12 @@ struct Outcome {
   std::map<std::string, std::uint64_t> codes;  ///< how often each code of the table acted
 };
 
-/// Runs a program. Sub files are looked for in `sub_folder`.
-Outcome run_program(const ProgramFile& program, bool keep_going, const std::string& sub_folder);
+/// Sees each command of a run and says where a probing move ends.
+using ProbeModel = std::function<std::optional<interp::ProbeHit>(const canon::Command&)>;
+
+/// Runs a program. Sub files are looked for in `sub_folder`. Without a model a probe meets nothing.
+Outcome run_program(const ProgramFile& program, bool keep_going, const std::string& sub_folder,
+                    const ProbeModel& model = {});
 
 /// Whether two texts of commands say the same: words are equal, numbers within 1e-4 or a millionth
 /// of their size.

@@ -12,6 +12,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "peer/stand_in.h"
+
 namespace aircut::test {
 namespace {
 
@@ -184,13 +186,17 @@ std::string line_of(const std::string& text, std::uint64_t number) {
 }
 
 Trace own_trace(const ProgramFile& program, const std::string& sub_folder) {
-  Outcome outcome = run_program(program, false, sub_folder);
+  StandInProbe probe;
+  Outcome outcome = run_program(program, false, sub_folder, [&](const canon::Command& command) {
+    return probe.follow(command);
+  });
   Trace trace;
   trace.codes = std::move(outcome.codes);
   trace.calls = parse_trace(outcome.rs274);
   bool too_deep = false;
   for (const Outcome::Found& found : outcome.found) {
     if (found.severity != Severity::error) continue;
+    if (!trace.error) trace.error_at = found.line;
     if (!trace.error && ends_where_it_stands(found.kind))
       trace.error_line = line_of(program.text, found.line);
     trace.error = true;
@@ -214,9 +220,10 @@ std::vector<Call> comparable(const Trace& trace) {
 }
 
 std::optional<std::string> difference(const Trace& own, const Trace& reference) {
-  if (own.timed_out && reference.timed_out) return std::nullopt;  // both never end
   const std::vector<Call> a = comparable(own), b = comparable(reference);
-  const std::size_t common = std::min(a.size(), b.size());
+  std::size_t common = std::min(a.size(), b.size());
+  const bool endless = own.timed_out && reference.timed_out;
+  if (endless && common > 0) --common;  // where one of them was cut off
   for (std::size_t i = 0; i < common; ++i)
     if (!same_call(a[i].text, b[i].text))
       return "call " + std::to_string(i + 1) + "\n    own:       " + a[i].text +
@@ -224,6 +231,7 @@ std::optional<std::string> difference(const Trace& own, const Trace& reference) 
              (own.error != reference.error ? "\n    own errors: " + own.error_text +
                                                  "\n    reference's:  " + reference.error_text
                                            : "");
+  if (endless) return std::nullopt;
   if (own.error != reference.error)
     return own.error ? "only own refuses: " + own.error_text +
                            (b.size() > common ? "\n    reference: " + b[common].text : "")

@@ -24,6 +24,7 @@ struct Trace {
   bool timed_out = false;
   std::string error_text;
   std::string error_line;  ///< own: the text of the line that is refused, when it is the program's
+  std::uint64_t error_at = 0;                  ///< own: that line's number
   std::map<std::string, std::uint64_t> codes;  ///< own: how often each code acted
 };
 
