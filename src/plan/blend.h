@@ -14,6 +14,9 @@ struct CornerShape {
   double left_room = 0;  ///< how much of each may be cut off, along s
   double right_room = 0;
   double tolerance = 0;  ///< G64 P, mm; 0 = no limit
+  /// The joints are linear in the tip: what a blend between lines demands goes exactly with 1 /
+  /// size.
+  bool linear_joints = false;
 };
 
 struct CornerBlend {

@@ -43,10 +43,10 @@ Chain::Chain(std::size_t max_nodes, const machine::Kinematics& kinematics,
   if (limits.has_jerk()) jerk_.emplace(kinematics, limits, start, period);
 }
 
-void Chain::push(Piece piece) {
+void Chain::push(Piece&& piece) {
   if (piece.entry <= 0) stop();
   nodes_ += piece.grid.nodes();
-  window_.push_back({std::move(piece), {}, {}, {}});
+  window_.emplace_back().piece = std::move(piece);
   if (nodes_ >= next_try_) emit_final();
 }
 
@@ -135,7 +135,7 @@ void Chain::drain_jerk_stage() {
   for (Segment& segment : jerk_->take()) hand_out(std::move(segment));
 }
 
-void Chain::hand_out(Segment segment) {
+void Chain::hand_out(Segment&& segment) {
   segment.t_start = clock_;
   clock_ += segment.duration();
   turns_ += plan::spindle_turns(segment, segment.duration());
@@ -144,7 +144,7 @@ void Chain::hand_out(Segment segment) {
 
 std::optional<Segment> Chain::take() {
   if (ready_.empty()) return std::nullopt;
-  Segment out = std::move(ready_.front());
+  std::optional<Segment> out(std::move(ready_.front()));
   ready_.pop_front();
   return out;
 }

@@ -24,7 +24,7 @@ class Chain {
   Chain(std::size_t max_nodes, const machine::Kinematics& kinematics, const JointLimits& limits,
         const machine::JointVector& start, double period);
 
-  void push(Piece piece);
+  void push(Piece&& piece);
   /// A segment that takes no way: it comes out after the piece before it. One that takes time needs
   /// a stop() first.
   void push_still(Segment segment);
@@ -45,7 +45,7 @@ class Chain {
   void emit_final();
   void brake_all();
   void emit(std::size_t count);
-  void hand_out(Segment segment);
+  void hand_out(Segment&& segment);
   void drain_jerk_stage();
 
   std::size_t max_nodes_;

@@ -69,7 +69,7 @@ CornerLoad load_of(const machine::Kinematics& kinematics, const Blend& blend, do
 bool stop_is_faster(const CornerLoad& load, const Blend& blend, double cut, double shorter) {
   if (!load.known || std::isinf(load.along.j)) return false;
   // A way that could not be made even in speed (nearly a cusp) is run too unevenly.
-  if (blend.u_of_y[2] == 0 && blend.u_of_y[1] == 0.5) return true;
+  if (runs_along_u(blend)) return true;
   // The speed that a side reaches if it starts and ends at rest.
   double v = 0;
   for (const ProfileKnot& knot : s_curve(shorter, load.along).knots) v = std::max(v, knot.v);

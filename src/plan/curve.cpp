@@ -76,6 +76,8 @@ class Way {
 
 using Powers = std::array<double, degree + 1>;
 
+constexpr Powers along_u = {0.5, 0.5};
+
 // Row i, column j: what the value at y_j adds to the coefficient of y^i. The same for all curves.
 using Matrix = std::array<Powers, degree + 1>;
 
@@ -115,6 +117,13 @@ Powers chebyshev_nodes() {
   return out;
 }
 
+bool keeps_others(const std::array<AxisValues, 6>& control) {
+  for (const AxisValues& p : control)
+    for (std::size_t k = 3; k < p.value.size(); ++k)
+      if (p.value[k] != control[0].value[k]) return false;
+  return true;
+}
+
 bool rises(const Powers& polynomial) {
   for (int k = 0; k <= 32; ++k) {
     const double y = k / 16.0 - 1;
@@ -134,6 +143,7 @@ Blend make_curve(const std::array<AxisValues, 6>& control) {
   const Way way(control);
   Blend out;
   out.control = control;
+  out.xyz_only = keeps_others(control);
   out.whole = out.length = way.whole();
   Powers values{};
   for (std::size_t j = 0; j <= degree; ++j) {
@@ -143,7 +153,7 @@ Blend make_curve(const std::array<AxisValues, 6>& control) {
   out.u_of_y = through(values);
   if (!rises(out.u_of_y)) {
     // A way that nearly stops inside (a cusp) has no smooth inverse: run along u.
-    out.u_of_y = {0.5, 0.5};
+    out.u_of_y = along_u;
   }
   return out;
 }
@@ -151,10 +161,13 @@ Blend make_curve(const std::array<AxisValues, 6>& control) {
 Blend scaled_curve(const Blend& like, const std::array<AxisValues, 6>& control, double scale) {
   Blend out = like;
   out.control = control;
+  out.xyz_only = keeps_others(control);
   out.whole = scale * like.whole;
   out.begin = scale * like.begin;
   out.length = scale * like.length;
   return out;
 }
+
+bool runs_along_u(const Blend& blend) { return blend.u_of_y == along_u; }
 
 }  // namespace aircut::plan

@@ -28,6 +28,8 @@ Vec3 foot_of(const Arc& arc);
 Blend make_curve(const std::array<AxisValues, 6>& control);
 /// The same curve after a change of size: `control` must be that of `like` moved and scaled.
 Blend scaled_curve(const Blend& like, const std::array<AxisValues, 6>& control, double scale);
+/// True where no such parameter was found: a way that nearly stops inside (a cusp).
+bool runs_along_u(const Blend& curve);
 /// The part of a path between two values of s; its own s starts at 0 again.
 Path sub_path(const Path& path, double s0, double s1);
 /// Metric of a path (none for a hold).

@@ -189,10 +189,11 @@ tl::expected<Grid, GridFailure> GridMaker::make(bool identity, const JointVector
   }
   const auto last = node(length_, guess);
   if (!last) return unexpected(GridFailure{0, true, last.error().reason});
-  if (first->joint.dq.isZero(0) && last->joint.dq.isZero(0) && is_uniform(identity, *first, *last))
+  const bool uniform = is_uniform(identity, *first, *last);
+  if (uniform && first->joint.dq.isZero(0) && last->joint.dq.isZero(0))
     return unexpected(GridFailure{0, false, "no joint of the machine moves this axis"});
   grid_.joints = static_cast<int>(first->alpha.size());
-  grid_.uniform = is_uniform(identity, *first, *last);
+  grid_.uniform = uniform;
   if (grid_.uniform) grid_.uniform_a = 1 / first->alpha.cwiseAbs().maxCoeff();
   const double alpha = std::max(first->alpha.cwiseAbs().maxCoeff(), 1e-300);
   ramp_ = std::min(std::max(first->cap, last->cap) * alpha / 2, length_);
@@ -205,6 +206,11 @@ tl::expected<Grid, GridFailure> GridMaker::make(bool identity, const JointVector
   grid_.ddq_start = first->joint.ddq;
   grid_.ddq_end = last->joint.ddq;
   grid_.q_end = last->joint.q;
+  // Most pieces need no more nodes than that.
+  const std::size_t few = grid_.uniform ? 2 : 3;
+  for (std::vector<double>* v : {&grid_.s, &grid_.cap, &grid_.room}) v->reserve(few);
+  grid_.why.reserve(few);
+  if (!grid_.uniform) grid_.rows.reserve(few * 2 * static_cast<std::size_t>(grid_.joints));
   add(*first);
   if (grid_.uniform)
     add(*last);

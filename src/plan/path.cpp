@@ -1,4 +1,4 @@
-// Geometry of the path pieces: position and three derivatives by the piece's own parameter s, and
+// Geometry of the path pieces: position and two derivatives by the piece's own parameter s, and
 // boxes with the way per axis over an interval of s, exact or larger.
 //
 // Line    p = p0 + s d, d = (p1 − p0) / length.
@@ -49,93 +49,83 @@ PathPoint evaluate_arc(const Arc& arc, double s) {
   const Vec3 p = foot_of(arc) + r * c + climb * s * arc.normal;
   const Vec3 d = dr * c + r * w * n + climb * arc.normal;
   const Vec3 dd = 2 * dr * w * n - r * w * w * c;
-  const Vec3 ddd = -3 * dr * w * w * c - r * w * w * w * n;
   for (const Axis axis : xyz) {
     const auto i = static_cast<Eigen::Index>(index(axis));
     out.p[axis] = p[i];
     out.d[axis] = d[i];
     out.dd[axis] = dd[i];
-    out.ddd[axis] = ddd[i];
   }
   return out;
 }
 
 // Weights of the six control points, from the Bernstein polynomials of degree 5 − order: derivative
 // number `order` by u is 5 · 4 · … times the differences of that order.
-struct Weights {
-  std::array<std::array<double, 6>, 4> of{};
-};
+using Weights = std::array<std::array<double, 6>, 3>;
 
 Weights weights_at(double u) {
-  Weights out;
   const double v = 1 - u;
   const double u2 = u * u, v2 = v * v, u3 = u2 * u, v3 = v2 * v;
-  out.of[0] = {v3 * v2, 5 * v2 * v2 * u, 10 * v3 * u2, 10 * v2 * u3, 5 * v * u2 * u2, u3 * u2};
-  const std::array<double, 5> b4 = {v2 * v2, 4 * v3 * u, 6 * v2 * u2, 4 * v * u3, u2 * u2};
-  const std::array<double, 4> b3 = {v3, 3 * v2 * u, 3 * v * u2, u3};
-  const std::array<double, 3> b2 = {v2, 2 * v * u, u2};
-  for (std::size_t i = 0; i < 5; ++i) {
-    out.of[1][i] -= 5 * b4[i];
-    out.of[1][i + 1] += 5 * b4[i];
-  }
-  for (std::size_t i = 0; i < 4; ++i) {
-    out.of[2][i] += 20 * b3[i];
-    out.of[2][i + 1] -= 40 * b3[i];
-    out.of[2][i + 2] += 20 * b3[i];
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.of[3][i] -= 60 * b2[i];
-    out.of[3][i + 1] += 180 * b2[i];
-    out.of[3][i + 2] -= 180 * b2[i];
-    out.of[3][i + 3] += 60 * b2[i];
-  }
-  return out;
+  const double a = 5 * v2 * v2, b = 20 * v3 * u, c = 30 * v2 * u2, d = 20 * v * u3, e = 5 * u2 * u2;
+  const double k = 20 * v3, l = 60 * v2 * u, m = 60 * v * u2, n = 20 * u3;
+  return {{{v3 * v2, a * u, 10 * v3 * u2, 10 * v2 * u3, e * v, u3 * u2},
+           {-a, a - b, b - c, c - d, d - e, e},
+           {k, l - 2 * k, m - 2 * l + k, n - 2 * m + l, m - 2 * n, n}}};
 }
 
 // u and its derivatives by s.
 struct Parameter {
-  double u, d, dd, ddd;
+  double u, d, dd;
 };
 
 Parameter parameter_at(const Blend& blend, double s) {
   const double y = 2 * std::clamp((blend.begin + s) / blend.whole, 0.0, 1.0) - 1;
-  Parameter out{0, 0, 0, 0};
-  for (std::size_t i = blend.u_of_y.size(); i-- > 0;) {  // Horner, with the derivatives
-    out.ddd = out.ddd * y + 3 * out.dd;
-    out.dd = out.dd * y + 2 * out.d;
-    out.d = out.d * y + out.u;
-    out.u = out.u * y + blend.u_of_y[i];
+  // Horner, with the derivatives, over z = y²: u = E(z) + y O(z). Two short chains side by side.
+  const double z = y * y;
+  double e = 0, de = 0, dde = 0, o = 0, d_o = 0, ddo = 0;
+  static_assert(std::tuple_size_v<decltype(blend.u_of_y)> % 2 == 0);
+  for (std::size_t i = blend.u_of_y.size(); i > 0; i -= 2) {
+    dde = dde * z + 2 * de;
+    de = de * z + e;
+    e = e * z + blend.u_of_y[i - 2];
+    ddo = ddo * z + 2 * d_o;
+    d_o = d_o * z + o;
+    o = o * z + blend.u_of_y[i - 1];
   }
   const double scale = 2 / blend.whole;
-  out.d *= scale;
-  out.dd *= scale * scale;
-  out.ddd *= scale * scale * scale;
-  return out;
+  return {e + y * o, (2 * y * de + o + 2 * z * d_o) * scale,
+          (2 * de + 4 * z * dde + y * (6 * d_o + 4 * z * ddo)) * scale * scale};
+}
+
+// Sums over the control points for the first `axes` axes; relative to the first point: small blends
+// far from zero keep their digits. The sums over the axes are the inner loops, so that they run
+// side by side. Then the chain rule, from derivatives by u to those by s.
+template <std::size_t axes>
+void sum_control(const Blend& blend, const Weights& w, const Parameter& u, PathPoint& out) {
+  std::array<double, axes> p{}, d{}, dd{};
+  for (std::size_t i = 1; i < 6; ++i) {
+    for (std::size_t k = 0; k < axes; ++k) {
+      const double way = blend.control[i].value[k] - blend.control[0].value[k];
+      p[k] += w[0][i] * way;
+      d[k] += w[1][i] * way;
+      dd[k] += w[2][i] * way;
+    }
+  }
+  for (std::size_t k = 0; k < axes; ++k) {
+    out.p.value[k] += p[k];
+    out.d.value[k] = d[k] * u.d;
+    out.dd.value[k] = dd[k] * u.d * u.d + d[k] * u.dd;
+  }
 }
 
 PathPoint evaluate_blend(const Blend& blend, double s) {
   const Parameter u = parameter_at(blend, s);
   const Weights w = weights_at(std::clamp(u.u, 0.0, 1.0));
   PathPoint out;
-  // Relative to the first point: small blends far from zero keep their digits. The sums over the
-  // nine axes are the inner loops, so that they run side by side.
-  for (std::size_t i = 1; i < 6; ++i) {
-    const AxisValues p = blend.control[i] - blend.control[0];
-    for (std::size_t k = 0; k < 9; ++k) {
-      out.p.value[k] += w.of[0][i] * p.value[k];
-      out.d.value[k] += w.of[1][i] * p.value[k];
-      out.dd.value[k] += w.of[2][i] * p.value[k];
-      out.ddd.value[k] += w.of[3][i] * p.value[k];
-    }
-  }
-  // Chain rule, from derivatives by u to those by s.
-  for (std::size_t k = 0; k < 9; ++k) {
-    const double b1 = out.d.value[k], b2 = out.dd.value[k], b3 = out.ddd.value[k];
-    out.p.value[k] += blend.control[0].value[k];
-    out.d.value[k] = b1 * u.d;
-    out.dd.value[k] = b2 * u.d * u.d + b1 * u.dd;
-    out.ddd.value[k] = b3 * u.d * u.d * u.d + 3 * b2 * u.d * u.dd + b1 * u.ddd;
-  }
+  out.p = blend.control[0];
+  if (blend.xyz_only)
+    sum_control<3>(blend, w, u, out);
+  else
+    sum_control<9>(blend, w, u, out);
   return out;
 }
 
@@ -261,7 +251,7 @@ double length(const Path& path) {
 
 PathPoint evaluate(const Path& path, double s) {
   return std::visit(overloaded{[](const Hold& hold) {
-                                 return PathPoint{hold.at, {}, {}, {}};
+                                 return PathPoint{hold.at, {}, {}};
                                },
                                [s](const Line& line) { return evaluate_line(line, s); },
                                [s](const Arc& arc) { return evaluate_arc(arc, s); },

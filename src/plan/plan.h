@@ -48,16 +48,16 @@ struct Blend {
   double whole = 0;  ///< length of the whole curve
   double begin = 0;  ///< length of the whole curve before this part
   double length = 0;
+  bool xyz_only = false;  ///< the other axes stand still
 };
 
 using Path = std::variant<Hold, Line, Arc, Blend>;
 
 double length(const Path& path);
 struct PathPoint {
-  AxisValues p;    ///< position
-  AxisValues d;    ///< first derivative by s
-  AxisValues dd;   ///< second derivative by s
-  AxisValues ddd;  ///< third derivative by s
+  AxisValues p;   ///< position
+  AxisValues d;   ///< first derivative by s
+  AxisValues dd;  ///< second derivative by s
 };
 PathPoint evaluate(const Path& path, double s);
 /// Box of the positions for s in [s0, s1] and the way of each axis; exact or larger.

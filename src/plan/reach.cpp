@@ -107,6 +107,8 @@ std::optional<ReachLimit> find_reach_limit(const machine::Kinematics& kinematics
                                            const AxisValues& tool_offset,
                                            const machine::JointVector& near,
                                            std::span<double> scratch) {
+  // Where each joint is an axis there is no tip without joints.
+  if (kinematics.type() == "identity") return std::nullopt;
   return Search(kinematics, path, tool_offset, near, scratch).run();
 }
 

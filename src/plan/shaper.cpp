@@ -82,8 +82,9 @@ Shaper::Corner Shaper::corner_to(const Move& right) const {
     // A side that starts at rest may give more than half; all of it would leave no room to start.
     const double left_room = std::min(left_length - begin_, (at_rest_ ? 0.9 : 0.5) * left_length);
     const double feed = std::min(left.feed, right.feed);
-    const CornerShape shape{left.segment.path, right.segment.path, left_room,
-                            length(right.segment.path) / 2, right.tolerance};
+    const CornerShape shape{left.segment.path, right.segment.path,
+                            left_room,         length(right.segment.path) / 2,
+                            right.tolerance,   machine_.kinematics().type() == "identity"};
     const auto load = [&](const Blend& blend) {
       return load_of(machine_.kinematics(), blend, feed, left.segment.tool_offset, limits_,
                      joints_);
@@ -262,7 +263,7 @@ void Shaper::add_range(Move& move, double begin, double end) {
 }
 
 // Gives a piece to the chain, or its good part and the failure.
-void Shaper::add(Segment segment, Metric metric, double feed) {
+void Shaper::add(Segment&& segment, Metric metric, double feed) {
   const machine::Kinematics& kinematics = machine_.kinematics();
   const double whole = length(segment.path);
   if (const auto limit =
@@ -313,7 +314,7 @@ double Shaper::jerk_entry(const Grid& grid, double scale) const {
   return least;
 }
 
-void Shaper::append(Segment segment, Grid grid) {
+void Shaper::append(Segment&& segment, Grid&& grid) {
   const AxisValues d = start_direction(segment.path);
   Piece piece;
   if (!at_rest_) {

@@ -64,8 +64,8 @@ class Shaper {
   void finish_pending();
   void add_blend(const Move& left, const Move& right, const CornerBlend& corner);
   void add_range(Move& move, double begin, double end);
-  void add(Segment segment, Metric metric, double feed);
-  void append(Segment segment, Grid grid);
+  void add(Segment&& segment, Metric metric, double feed);
+  void append(Segment&& segment, Grid&& grid);
 
   const machine::Machine& machine_;
   JointLimits limits_;

@@ -141,6 +141,7 @@ Ride ride_uniform(const Grid& grid, double b_start, double b_end) {
   const double up = (peak - b_start) / (2 * a), down = (peak - b_end) / (2 * a);
   const double cruise = std::max(length - up - down, 0.0);
   RideMaker maker;
+  maker.ride.profile.knots.reserve(4);
   maker.go(up, b_start, peak, LimitedBy::acceleration);
   if (peak >= cap)
     maker.go(cruise, peak, peak,
@@ -167,6 +168,7 @@ void brake(const Grid& grid, double b_end, Controllable& out) {
 Ride accelerate(const Grid& grid, const Controllable& controllable, double b_start) {
   if (grid.uniform) return ride_uniform(grid, b_start, controllable.back());
   RideMaker maker;
+  maker.ride.profile.knots.reserve(grid.nodes());
   double b = b_start;
   for (std::size_t k = 0; k + 1 < grid.nodes(); ++k) {
     const Interval interval(grid, k, controllable[k + 1]);
