@@ -37,7 +37,7 @@ unsigned flags_of(const plan::Segment& segment) {
   if (segment.kind == plan::MotionKind::blend) flags |= in_blend;
   if (segment.merged) flags |= merged_line;
   if (segment.failure) flags |= warning;
-  switch (segment.limited_by) {
+  switch (segment.limited_by.by) {
     case plan::LimitedBy::none:
       return flags;
     case plan::LimitedBy::feed:

@@ -17,11 +17,6 @@
 namespace aircut::plan {
 namespace {
 
-LimitedBy longest(const std::array<double, 5>& time) {
-  const auto worst = std::max_element(time.begin(), time.end());
-  return *worst > 0 ? static_cast<LimitedBy>(worst - time.begin()) : LimitedBy::none;
-}
-
 // Rounded down to 36 bits. The two passes often only tend towards each other; rounding makes them
 // the same number once they are that near (a share of 3e-11).
 double rounded_down(double b) {
@@ -112,7 +107,7 @@ void Chain::emit(std::size_t count) {
     Ride ride = accelerate(item.piece.grid, item.stop, b_);
     Segment& segment = item.piece.segment;
     segment.profile = std::move(ride.profile);
-    segment.limited_by = longest(ride.time);
+    segment.limited_by = ride.spent.longest();
     nodes_ -= item.piece.grid.nodes();
     if (jerk_) {
       jerk_->push(std::move(segment), std::move(item.piece.grid), std::sqrt(item.piece.per_exit));
@@ -143,9 +138,12 @@ void Chain::hand_out(Segment&& segment) {
 }
 
 std::optional<Segment> Chain::take() {
-  if (ready_.empty()) return std::nullopt;
-  std::optional<Segment> out(std::move(ready_.front()));
-  ready_.pop_front();
+  if (taken_ == ready_.size()) {
+    ready_.clear();
+    taken_ = 0;
+    return std::nullopt;
+  }
+  std::optional<Segment> out(std::move(ready_[taken_++]));
   return out;
 }
 

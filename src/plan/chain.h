@@ -56,7 +56,8 @@ class Chain {
   double clock_ = 0;  ///< program time, s
   double turns_ = 0;
   std::optional<JerkStage> jerk_;  ///< when a joint has a jerk limit
-  std::deque<Segment> ready_;
+  std::vector<Segment> ready_;
+  std::size_t taken_ = 0;  ///< of ready_
 };
 
 }  // namespace aircut::plan

@@ -33,17 +33,25 @@ struct Node {
   double s = 0;
   JointPoint joint;
   JointVector alpha, beta;
+  AxisValues d;             ///< p'
   double metric_speed = 1;  ///< |p'| along the feed metric
   double cap = infinity;
-  Cap why = Cap::none;
+  Cause why;
 };
+
+// The joint with the largest share of its limit.
+signed char largest_of(const JointVector& shares) {
+  Eigen::Index joint = 0;
+  shares.cwiseAbs().maxCoeff(&joint);
+  return static_cast<signed char>(joint);
+}
 
 class GridMaker {
  public:
   GridMaker(const JointPath& path, Metric metric, double feed, const JointLimits& limits)
       : path_(path), metric_(metric), feed_(feed), limits_(limits), length_(length(path.path())) {}
 
-  tl::expected<Grid, GridFailure> make(bool identity, const JointVector& near);
+  tl::expected<MadeGrid, GridFailure> make(bool identity, const JointVector& near);
 
  private:
   tl::expected<Node, ReachError> node(double s, const JointVector& near) const;
@@ -72,15 +80,17 @@ tl::expected<Node, ReachError> GridMaker::node(double s, const JointVector& near
   out.joint = std::move(*joint);
   out.alpha = out.joint.dq.cwiseQuotient(limits_.a);
   out.beta = out.joint.ddq.cwiseQuotient(limits_.a);
+  out.d = p.d;
   out.metric_speed = metric_length(metric_, p.d);
   if (feed_ < infinity && out.metric_speed > 0) {
     out.cap = (feed_ / out.metric_speed) * (feed_ / out.metric_speed);
-    out.why = Cap::feed;
+    out.why.by = LimitedBy::feed;
   }
-  const double fastest = 1 / out.joint.dq.cwiseQuotient(limits_.v).cwiseAbs().maxCoeff();
+  const JointVector shares = out.joint.dq.cwiseQuotient(limits_.v);
+  const double fastest = 1 / shares.cwiseAbs().maxCoeff();
   if (fastest * fastest < out.cap) {
     out.cap = fastest * fastest;
-    out.why = Cap::velocity;
+    out.why = {LimitedBy::velocity, largest_of(shares)};
   }
   return out;
 }
@@ -141,10 +151,8 @@ std::optional<double> GridMaker::row_error(const Node& a, const Node& m, const N
 }
 
 void GridMaker::add(const Node& n, double room) {
-  if (!grid_.s.empty()) grid_.room.push_back(room);
-  grid_.s.push_back(n.s);
-  grid_.cap.push_back(n.cap);
-  grid_.why.push_back(n.why);
+  if (!grid_.at.empty()) grid_.at.back().room = room;
+  grid_.at.push_back({n.s, n.cap, 1, n.why});
   if (grid_.uniform) return;
   grid_.rows.insert(grid_.rows.end(), n.alpha.begin(), n.alpha.end());
   grid_.rows.insert(grid_.rows.end(), n.beta.begin(), n.beta.end());
@@ -175,7 +183,7 @@ bool GridMaker::split(const Node& a, const Node& b, int depth) {
   return true;
 }
 
-tl::expected<Grid, GridFailure> GridMaker::make(bool identity, const JointVector& near) {
+tl::expected<MadeGrid, GridFailure> GridMaker::make(bool identity, const JointVector& near) {
   const auto first = node(0, near);
   if (!first) return unexpected(GridFailure{0, true, first.error().reason});
   // The end is reached over the middle, so that `near` is never a long way off.
@@ -194,36 +202,37 @@ tl::expected<Grid, GridFailure> GridMaker::make(bool identity, const JointVector
     return unexpected(GridFailure{0, false, "no joint of the machine moves this axis"});
   grid_.joints = static_cast<int>(first->alpha.size());
   grid_.uniform = uniform;
-  if (grid_.uniform) grid_.uniform_a = 1 / first->alpha.cwiseAbs().maxCoeff();
   const double alpha = std::max(first->alpha.cwiseAbs().maxCoeff(), 1e-300);
+  if (grid_.uniform) {
+    grid_.uniform_a = 1 / alpha;
+    grid_.uniform_joint = largest_of(first->alpha);
+  }
   ramp_ = std::min(std::max(first->cap, last->cap) * alpha / 2, length_);
   if (std::holds_alternative<Blend>(path_.path())) {
     const double fastest = std::sqrt(std::max(first->cap, last->cap));
     row_tolerance_ = length_ < moment * fastest ? moment_row_tolerance : blend_row_tolerance;
   }
   grid_.dq_start = first->joint.dq;
-  grid_.dq_end = last->joint.dq;
-  grid_.ddq_start = first->joint.ddq;
-  grid_.ddq_end = last->joint.ddq;
-  grid_.q_end = last->joint.q;
   // Most pieces need no more nodes than that.
   const std::size_t few = grid_.uniform ? 2 : 3;
-  for (std::vector<double>* v : {&grid_.s, &grid_.cap, &grid_.room}) v->reserve(few);
-  grid_.why.reserve(few);
+  grid_.at.reserve(few);
   if (!grid_.uniform) grid_.rows.reserve(few * 2 * static_cast<std::size_t>(grid_.joints));
   add(*first);
   if (grid_.uniform)
     add(*last);
   else if (!split(*first, *last, 0))
     return unexpected(*failure_);
-  return std::move(grid_);
+  return MadeGrid{
+      std::move(grid_),
+      {last->joint.q, last->joint.dq, first->joint.ddq, last->joint.ddq, first->d, last->d}};
 }
 
 }  // namespace
 
-tl::expected<Grid, GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
-                                          Metric metric, double feed, const AxisValues& tool_offset,
-                                          const JointLimits& limits, const JointVector& near) {
+tl::expected<MadeGrid, GridFailure> make_grid(const machine::Kinematics& kinematics,
+                                              const Path& path, Metric metric, double feed,
+                                              const AxisValues& tool_offset,
+                                              const JointLimits& limits, const JointVector& near) {
   const JointPath joints(kinematics, path, tool_offset);
   return GridMaker(joints, metric, feed, limits).make(kinematics.type() == "identity", near);
 }

@@ -14,8 +14,12 @@ struct JointLimits {
   bool has_jerk() const { return !j.array().isInf().all(); }
 };
 
-/// What caps the speed at a node.
-enum class Cap : unsigned char { none, feed, velocity };
+struct GridNode {
+  double s = 0;
+  double cap = 0;   ///< largest b by feed and joint speeds
+  double room = 1;  ///< of the interval behind: 1 minus what its rows can be wrong between nodes
+  Cause why;        ///< what caps the speed
+};
 
 /// Nodes of one piece. `b` is the squared path speed.
 ///
@@ -24,24 +28,31 @@ enum class Cap : unsigned char { none, feed, velocity };
 /// with u the path acceleration, alpha = q' / A, beta = q'' / A.
 struct Grid {
   bool uniform = false;
-  double uniform_a = 0;  ///< largest |u| of a uniform piece
+  double uniform_a = 0;           ///< largest |u| of a uniform piece
+  signed char uniform_joint = 0;  ///< whose limit that is
   int joints = 0;
-  std::vector<double> s;    ///< of the nodes, ascending, first 0, last the length
-  std::vector<double> cap;  ///< largest b by feed and joint speeds
-  std::vector<Cap> why;
-  std::vector<double> room;  ///< per interval: 1 minus what the rows can be wrong between nodes
-  std::vector<double> rows;  ///< per node: alpha of every joint, then beta of every joint
+  std::vector<GridNode> at;       ///< by s, first 0, last the length
+  std::vector<double> rows;       ///< per node: alpha of every joint, then beta of every joint
+  machine::JointVector dq_start;  ///< q' at the start
 
-  std::size_t nodes() const { return s.size(); }
-  double length() const { return s.back(); }
+  std::size_t nodes() const { return at.size(); }
+  double length() const { return at.back().s; }
   const double* alpha(std::size_t node) const {
     return rows.data() + node * 2 * static_cast<std::size_t>(joints);
   }
   const double* beta(std::size_t node) const { return alpha(node) + joints; }
+};
 
-  machine::JointVector q_end;               ///< joints at the end of the piece
-  machine::JointVector dq_start, dq_end;    ///< q' at the ends
-  machine::JointVector ddq_start, ddq_end;  ///< q''
+/// How a piece joins its neighbours.
+struct GridEnds {
+  machine::JointVector q_end;  ///< joints at the end of the piece
+  machine::JointVector dq_end;
+  machine::JointVector ddq_start, ddq_end;
+  AxisValues d_start, d_end;  ///< of the tip
+};
+struct MadeGrid {
+  Grid grid;
+  GridEnds ends;
 };
 
 /// The piece can't be carried out beyond `s`.
@@ -52,9 +63,10 @@ struct GridFailure {
 };
 
 /// `near`: joints at the start. `feed` limits the tip's speed along `metric` (infinity: a rapid).
-tl::expected<Grid, GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
-                                          Metric metric, double feed, const AxisValues& tool_offset,
-                                          const JointLimits& limits,
-                                          const machine::JointVector& near);
+tl::expected<MadeGrid, GridFailure> make_grid(const machine::Kinematics& kinematics,
+                                              const Path& path, Metric metric, double feed,
+                                              const AxisValues& tool_offset,
+                                              const JointLimits& limits,
+                                              const machine::JointVector& near);
 
 }  // namespace aircut::plan

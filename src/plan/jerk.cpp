@@ -107,8 +107,8 @@ bool JerkStage::goes_on_straight(const WayItem& item) const {
   const WayItem& first = items_.front();
   if (!first.grid.uniform || !item.grid.uniform) return false;
   const machine::JointVector dq = first.grid.dq_start / first.stretch;
-  const double cap = first.grid.cap.front() * first.stretch * first.stretch;
-  const double here = item.grid.cap.front() * item.stretch * item.stretch;
+  const double cap = first.grid.at.front().cap * first.stretch * first.stretch;
+  const double here = item.grid.at.front().cap * item.stretch * item.stretch;
   if (std::abs(here - cap) > 1e-9 * cap && here != cap) return false;
   return (item.grid.dq_start / item.stretch - dq).norm() <= 1e-9 * dq.norm();
 }
@@ -117,7 +117,7 @@ void JerkStage::plan_straight() {
   const WayItem& first = items_.front();
   const machine::JointVector alpha = first.grid.dq_start.cwiseQuotient(limits_.a) / first.stretch;
   StraightLimits limits{};
-  limits.v = std::sqrt(first.grid.cap.front()) * first.stretch;
+  limits.v = std::sqrt(first.grid.at.front().cap) * first.stretch;
   limits.a = 1 / alpha.cwiseAbs().maxCoeff();
   limits.j = path_jerk(alpha.data(), window_.rate);
   if (!std::isfinite(limits.j)) {
@@ -130,13 +130,15 @@ void JerkStage::plan_straight() {
     waiting_ = 0;
     return;
   }
+  Eigen::Index jerk_limited = 0;
+  alpha.cwiseQuotient(window_.rate).cwiseAbs().maxCoeff(&jerk_limited);
+  const auto jerk_joint = static_cast<signed char>(jerk_limited);
   const SpeedProfile profile = s_curve(way_end(), limits);
   std::vector<LawKnot> law;
   for (const ProfileKnot& k : profile.knots) {
-    LimitedBy cause = LimitedBy::jerk;
-    if (k.j == 0 && k.a != 0) cause = LimitedBy::acceleration;
-    if (k.j == 0 && k.a == 0)
-      cause = first.grid.why.front() == Cap::feed ? LimitedBy::feed : LimitedBy::velocity;
+    Cause cause{LimitedBy::jerk, jerk_joint};
+    if (k.j == 0 && k.a != 0) cause = {LimitedBy::acceleration, first.grid.uniform_joint};
+    if (k.j == 0 && k.a == 0) cause = first.grid.at.front().why;
     law.push_back({k.t, k.s, k.v, k.a, k.j, cause});
   }
   // The closed form keeps the limits; what is left to look at is the samples that it shares with
@@ -220,8 +222,8 @@ void JerkStage::go_gently() {
   const JerkWindow& w = window_;
   StraightLimits limits{infinity, infinity, infinity};
   for (const WayItem& item : items_)
-    for (const double cap : item.grid.cap)
-      limits.v = std::min(limits.v, item.stretch * std::sqrt(cap));
+    for (const GridNode& node : item.grid.at)
+      limits.v = std::min(limits.v, item.stretch * std::sqrt(node.cap));
   for (std::size_t k = 0; k < w.stations.size(); ++k) {
     const double* alpha = &w.alpha[k * w.joints];
     for (std::size_t j = 0; j < w.joints; ++j)
@@ -230,7 +232,7 @@ void JerkStage::go_gently() {
   }
   std::vector<LawKnot> law;
   for (const ProfileKnot& k : s_curve(way_end(), limits).knots)
-    law.push_back({k.t, k.s, k.v, k.a, k.j, LimitedBy::jerk});
+    law.push_back({k.t, k.s, k.v, k.a, k.j, {LimitedBy::jerk, -1}});
   slow_down(law, slowness(law, infinity));
   carry_out(std::move(law));
   rest_here();
@@ -320,9 +322,9 @@ void JerkStage::give(Segment segment) {
 
 Segment JerkStage::cut(WayItem& item, double t0, double t1) {
   Segment out = std::move(item.segment);
-  const LimitedBy second_order = out.limited_by;
+  const Cause second_order = out.limited_by;
   SpeedProfile profile;
-  std::array<double, 5> spent{};
+  CauseTimes spent;
   const double f = item.stretch;
   for (std::size_t i = knot_at(law_, t0); i + 1 < law_.size() && law_[i].t < t1; ++i) {
     const LawKnot& k = law_[i];
@@ -334,16 +336,14 @@ Segment JerkStage::cut(WayItem& item, double t0, double t1) {
     const double s = profile.knots.empty() ? 0 : std::max((x - item.begin) / f, 0.0);
     profile.knots.push_back({begin - t0, std::min(s, item.grid.length()), std::max(v, 0.0) / f,
                              (k.a + tau * k.j) / f, k.j / f});
-    const LimitedBy cause =
-        k.cause == LimitedBy::feed && second_order != LimitedBy::none ? second_order : k.cause;
-    spent[static_cast<std::size_t>(cause)] += end - begin;
+    const bool capped = k.cause.by == LimitedBy::feed && second_order.by != LimitedBy::none;
+    spent.add(capped ? second_order : k.cause, end - begin);
   }
   const LawKnot& k = law_[knot_at(law_, t1)];
   const double tau = t1 - k.t;
   const double v = std::max(k.speed(tau), 0.0);
   profile.knots.push_back({t1 - t0, item.grid.length(), v / f, (k.a + tau * k.j) / f, 0});
-  out.limited_by =
-      static_cast<LimitedBy>(std::max_element(spent.begin(), spent.end()) - spent.begin());
+  out.limited_by = spent.longest();
   out.profile = std::move(profile);
   out.limit_problem = std::exchange(problem_, {});
   return out;

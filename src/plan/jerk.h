@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plan/jerk_check.h"
+#include "plan/speed.h"
 
 namespace aircut::plan {
 

@@ -10,7 +10,7 @@ namespace aircut::plan {
 /// From `t` on: x(τ) = x + vτ + aτ²/2 + jτ³/6 with τ = time − t.
 struct LawKnot {
   double t = 0, x = 0, v = 0, a = 0, j = 0;
-  LimitedBy cause = LimitedBy::none;
+  Cause cause;
 
   double way(double tau) const { return x + tau * (v + tau * (a / 2 + tau * j / 6)); }
   double speed(double tau) const { return v + tau * (a + tau * j / 2); }

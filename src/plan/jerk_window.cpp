@@ -125,17 +125,26 @@ NodePlan solve_on(const JerkWindow& w, std::vector<double> x, const NodePlan* be
   plan.trim = std::move(trim);
   plan.b = std::move(solution.b);
   plan.q.resize(w.joints * n);
-  plan.cause.assign(n, LimitedBy::jerk);
+  plan.cause.assign(n, {LimitedBy::jerk, -1});
   for (std::size_t k = 0; k < n; ++k) {
-    double most = 0;
+    double most = 0, steepest = 0;
+    Cause acceleration{LimitedBy::acceleration, -1};
     for (std::size_t j = 0; j < w.joints; ++j) {
       double& q = plan.q[j * n + k];
       q = problem.p[j * n + k] * plan.b[k] + problem.r[j * n + k] * plan.b[k + 1];
-      most = std::max(most, std::abs(q));
+      if (std::abs(q) > most) {
+        most = std::abs(q);
+        acceleration.joint = static_cast<signed char>(j);
+      }
+      const double change = std::abs(q - (k > 0 ? plan.q[j * n + k - 1] : 0)) / problem.rate[j];
+      if (change > steepest) {
+        steepest = change;
+        plan.cause[k].joint = static_cast<signed char>(j);
+      }
     }
-    if (most > 0.97) plan.cause[k] = LimitedBy::acceleration;
+    if (most > 0.97) plan.cause[k] = acceleration;
     if (plan.b[k] > 0.98 * problem.cap[k] && plan.b[k + 1] > 0.98 * problem.cap[k + 1])
-      plan.cause[k] = LimitedBy::feed;  // or what limited the second-order profile: see cut()
+      plan.cause[k] = {LimitedBy::feed, -1};  // or what limited the second-order profile: see cut()
   }
   return plan;
 }

@@ -48,7 +48,7 @@ struct NodePlan {
   std::vector<double> x, b;
   Trim trim;
   std::vector<double> q;  ///< joint accelerations by cell, joint after joint
-  std::vector<LimitedBy> cause;
+  std::vector<Cause> cause;
   bool good = false;
 };
 

@@ -53,7 +53,7 @@ WindowLaw law_of(const JerkWindow& w, const NodePlan& plan, LawKnot at) {
   at.x = w.start.from_rest ? w.start.x : at.x;
   at.v = w.start.from_rest ? 0 : at.v;
   at.a = w.start.from_rest ? 0 : w.start.u;
-  const auto go = [&](double duration, double jerk, double acceleration, LimitedBy cause) {
+  const auto go = [&](double duration, double jerk, double acceleration, Cause cause) {
     if (!(duration > 0)) return;
     at.j = jerk;
     at.a = acceleration;
@@ -72,14 +72,14 @@ WindowLaw law_of(const JerkWindow& w, const NodePlan& plan, LawKnot at) {
     const double u1 = k < n ? law.u[k] : 0;
     const bool edge = !(before > 0) || !(after > 0);
     const double ramp = edge ? before + after : std::min(before, after);
-    const LimitedBy left = plan.cause[k > 0 ? k - 1 : 0], right = plan.cause[k < n ? k : n - 1];
+    const Cause left = plan.cause[k > 0 ? k - 1 : 0], right = plan.cause[k < n ? k : n - 1];
     if (!edge) go((before - ramp) / 2, 0, u0, left);
     law.node_time[k] = at.t + ramp / 2;
     go(ramp, (u1 - u0) / ramp, u0, left);
     if (!edge) go((after - ramp) / 2, 0, u1, right);
   }
   take_drift_back(w, law.knots, plan.x.back() - at.x, -at.v, at.t);
-  law.knots.push_back({at.t, plan.x.back(), 0, 0, 0, LimitedBy::none});
+  law.knots.push_back({at.t, plan.x.back(), 0, 0, 0, {}});
   return law;
 }
 

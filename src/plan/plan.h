@@ -90,6 +90,12 @@ struct ProfileKnot {
 
 enum class LimitedBy : unsigned char { none, feed, velocity, acceleration, jerk };
 
+/// What held the speed, and whose limit that is.
+struct Cause {
+  LimitedBy by = LimitedBy::none;
+  signed char joint = -1;  ///< JointId; −1: no joint's, as the feed
+};
+
 /// s(t) as polynomial pieces; the last knot is the end.
 struct SpeedProfile {
   std::vector<ProfileKnot> knots;
@@ -150,8 +156,8 @@ struct Segment {
   int work_system = 1;       ///< 1 = G54 … 9 = G59.3
   /// The part of the block's path that this segment covers (a block may be split by blends).
   double u0 = 0, u1 = 1;
-  LimitedBy limited_by = LimitedBy::none;  ///< what held the speed longest
-  std::optional<Sync> sync;                ///< of synchronised motion
+  Cause limited_by;          ///< what held the speed longest
+  std::optional<Sync> sync;  ///< of synchronised motion
   std::string sync_problem;  ///< why the axis can't keep to the spindle; empty = it can
   /// Why a joint passes its limit of acceleration or jerk here; empty = none does.
   std::string limit_problem;

@@ -142,11 +142,12 @@ std::optional<Shaper::StraightRun> Shaper::straight_run(const Line& line,
   if (failed_) return std::nullopt;
   if (find_reach_limit(machine_.kinematics(), line, tool_offset, joints_, scratch_))
     return std::nullopt;
-  const auto grid = make_grid(machine_.kinematics(), line, metric_of(line), infinity, tool_offset,
+  const auto made = make_grid(machine_.kinematics(), line, metric_of(line), infinity, tool_offset,
                               limits_, joints_);
-  if (!grid) return std::nullopt;
+  if (!made) return std::nullopt;
+  const Grid& grid = made->grid;
   StraightRun out;
-  out.end = grid->q_end;
+  out.end = made->ends.q_end;
   const machine::JointVector rate = limits_.j.cwiseQuotient(limits_.a);
   const auto limit = [&](const double* alpha) {
     double a = infinity, j = infinity;
@@ -158,18 +159,18 @@ std::optional<Shaper::StraightRun> Shaper::straight_run(const Line& line,
     out.limits.a = std::min(out.limits.a, a);
     out.limits.j = std::min(out.limits.j, j);
   };
-  out.limits = {std::sqrt(*std::min_element(grid->cap.begin(), grid->cap.end())), infinity,
-                infinity};
-  if (grid->uniform) {
-    const machine::JointVector alpha = grid->dq_start.cwiseQuotient(limits_.a);
+  out.limits = {infinity, infinity, infinity};
+  for (const GridNode& node : grid.at) out.limits.v = std::min(out.limits.v, std::sqrt(node.cap));
+  if (grid.uniform) {
+    const machine::JointVector alpha = grid.dq_start.cwiseQuotient(limits_.a);
     limit(alpha.data());
     return out;
   }
   // Where the joints bend along the line, half of each limit is left to the bend.
   double bend = 0;
-  for (std::size_t k = 0; k < grid->nodes(); ++k) {
-    limit(grid->alpha(k));
-    for (int j = 0; j < grid->joints; ++j) bend = std::max(bend, std::abs(grid->beta(k)[j]));
+  for (std::size_t k = 0; k < grid.nodes(); ++k) {
+    limit(grid.alpha(k));
+    for (int j = 0; j < grid.joints; ++j) bend = std::max(bend, std::abs(grid.beta(k)[j]));
   }
   out.limits.a /= 2;
   out.limits.j /= 2;
@@ -278,18 +279,18 @@ void Shaper::add(Segment&& segment, Metric metric, double feed) {
   }
   // A piece that turns singular on the way is cut there and tried again.
   for (int tries = 0; length(segment.path) > 1e-9 * whole; ++tries) {
-    auto grid =
+    auto made =
         make_grid(kinematics, segment.path, metric, feed, segment.tool_offset, limits_, joints_);
-    if (grid) {
-      append(std::move(segment), std::move(*grid));
+    if (made) {
+      append(std::move(segment), std::move(*made));
       return;
     }
     const double here = length(segment.path);
-    const double good = tries < 8 ? std::min(grid.error().s, 0.999 * here) : 0;
+    const double good = tries < 8 ? std::min(made.error().s, 0.999 * here) : 0;
     const double fraction = segment.u0 + (segment.u1 - segment.u0) * good / here;
-    if (!segment.failure || !grid.error().singular)
-      segment.failure = Failure{grid.error().singular ? "singular" : "unreachable",
-                                grid.error().reason, fraction, evaluate(segment.path, good).p};
+    if (!segment.failure || !made.error().singular)
+      segment.failure = Failure{made.error().singular ? "singular" : "unreachable",
+                                made.error().reason, fraction, evaluate(segment.path, good).p};
     segment.path = sub_path(segment.path, 0, good);
     segment.u1 = fraction;
     failed_ = true;
@@ -302,20 +303,21 @@ void Shaper::add(Segment&& segment, Metric metric, double feed) {
 
 // Squared speed at which a joint can take the jumps of its direction and curvature: by differences
 // over the period T they count as jerks |Δq'| v / T² and 3/4 |Δq''| v² / T.
-double Shaper::jerk_entry(const Grid& grid, double scale) const {
+double Shaper::jerk_entry(const MadeGrid& made, double scale) const {
   double least = infinity;
   for (Eigen::Index j = 0; j < limits_.j.size(); ++j) {
     if (std::isinf(limits_.j[j])) continue;
-    const double kink = std::abs(grid.dq_start[j] - dq_end_[j] / scale);
-    const double bend = std::abs(grid.ddq_start[j] - ddq_end_[j] / (scale * scale));
+    const double kink = std::abs(made.grid.dq_start[j] - dq_end_[j] / scale);
+    const double bend = std::abs(made.ends.ddq_start[j] - ddq_end_[j] / (scale * scale));
     const double v = kink_jerk_share * limits_.j[j] * period_ * period_ / kink;
     least = std::min({least, v * v, bend_jerk_share * limits_.j[j] * period_ / bend});
   }
   return least;
 }
 
-void Shaper::append(Segment&& segment, Grid&& grid) {
-  const AxisValues d = start_direction(segment.path);
+void Shaper::append(Segment&& segment, MadeGrid&& made) {
+  const AxisValues& d = made.ends.d_start;
+  const Grid& grid = made.grid;
   Piece piece;
   if (!at_rest_) {
     const double scale = mixed_norm(d_end_) / mixed_norm(d);  // path speed here per speed before
@@ -323,17 +325,17 @@ void Shaper::append(Segment&& segment, Grid&& grid) {
     const machine::JointVector jump =
         (grid.dq_start - dq_end_ / scale).cwiseQuotient(limits_.a) / (jump_share * period_);
     const double fastest = 1 / jump.cwiseAbs().maxCoeff();
-    piece.entry = std::min({fastest * fastest, grid.cap.front(), jerk_entry(grid, scale)});
+    piece.entry = std::min({fastest * fastest, grid.at.front().cap, jerk_entry(made, scale)});
     // So slow that standing still for a moment costs nothing.
-    if (piece.entry < 1e-6 * grid.cap.front()) piece.entry = 0;
+    if (piece.entry < 1e-6 * grid.at.front().cap) piece.entry = 0;
   }
   at_rest_ = false;
-  joints_ = grid.q_end;
-  d_end_ = end_direction(segment.path);
-  dq_end_ = grid.dq_end;
-  ddq_end_ = grid.ddq_end;
+  joints_ = made.ends.q_end;
+  d_end_ = made.ends.d_end;
+  dq_end_ = made.ends.dq_end;
+  ddq_end_ = made.ends.ddq_end;
   piece.segment = std::move(segment);
-  piece.grid = std::move(grid);
+  piece.grid = std::move(made.grid);
   chain_.push(std::move(piece));
   if (failed_) chain_.stop();
 }

@@ -60,12 +60,12 @@ class Shaper {
   using Corner = std::variant<Rest, Pass, CornerBlend>;
 
   Corner corner_to(const Move& right) const;
-  double jerk_entry(const Grid& grid, double scale) const;
+  double jerk_entry(const MadeGrid& made, double scale) const;
   void finish_pending();
   void add_blend(const Move& left, const Move& right, const CornerBlend& corner);
   void add_range(Move& move, double begin, double end);
   void add(Segment&& segment, Metric metric, double feed);
-  void append(Segment&& segment, Grid&& grid);
+  void append(Segment&& segment, MadeGrid&& made);
 
   const machine::Machine& machine_;
   JointLimits limits_;

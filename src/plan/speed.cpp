@@ -21,17 +21,16 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// A bound of u as a line over b: value + slope · b.
-struct Bound {
-  double value, slope;
-  double at(double b) const { return value + slope * b; }
-};
-
-// The half-planes of one interval.
+// The half-planes of one interval. A row |p u + q b| ≤ room leaves u between two parallel lines
+// over b: middle · b ± half.
 class Interval {
  public:
   Interval(const Grid& grid, std::size_t node, double b_next)
-      : ds_(grid.s[node + 1] - grid.s[node]), cap_(grid.cap[node]), room_(grid.room[node]) {
+      : ds_(grid.at[node + 1].s - grid.at[node].s),
+        cap_(grid.at[node].cap),
+        room_(grid.at[node].room),
+        ramp_(1 / (2 * ds_)),
+        end_(b_next * ramp_) {
     const double* alpha0 = grid.alpha(node);
     const double* beta0 = grid.beta(node);
     const double* alpha1 = grid.alpha(node + 1);
@@ -40,20 +39,17 @@ class Interval {
       add(alpha0[j], beta0[j]);
       add(alpha1[j] + 2 * ds_ * beta1[j], beta1[j]);
     }
-    lower_[count_] = {0, -1 / (2 * ds_)};
-    upper_[count_] = {b_next / (2 * ds_), -1 / (2 * ds_)};
-    ++count_;
   }
 
   // Largest b for which some u exists.
   double largest_b() const {
     double b = cap_;
     if (b == infinity) b = largest_finite_b();
-    for (std::size_t round = 0; round < 4 * count_ + 8; ++round) {
-      const Bound low = lowest(b), high = highest(b);
-      const double width = high.at(b) - low.at(b);
+    for (std::size_t round = 0; round < 8 * count_ + 16; ++round) {
+      const Room room = room_at(b);
+      const double width = room.high - room.low;
       if (width >= 0) return b;
-      const double slope = high.slope - low.slope;
+      const double slope = room.high_slope - room.low_slope;
       if (!(slope < 0)) return 0;  // rounding at a vertex next to standstill
       const double next = b - width / slope;
       if (!(next < b)) return b;
@@ -64,8 +60,8 @@ class Interval {
 
   // Largest u at b; at a vertex, where rounding can leave nothing, the middle of the crossing.
   double largest_u(double b) const {
-    const double high = highest(b).at(b), low = lowest(b).at(b);
-    return high >= low ? high : (high + low) / 2;
+    const Room room = room_at(b);
+    return room.high >= room.low ? room.high : (room.high + room.low) / 2;
   }
   double ds() const { return ds_; }
 
@@ -75,45 +71,69 @@ class Interval {
       if (q != 0) cap_ = std::min(cap_, room_ / std::abs(q));
       return;
     }
-    // ±(p u + q b) ≤ room
-    const double sign = p > 0 ? room_ : -room_;
-    upper_[count_] = {sign / p, -q / p};
-    lower_[count_] = {-sign / p, -q / p};
+    const double over = 1 / p;
+    middle_[count_] = -q * over;
+    half_[count_] = room_ * std::abs(over);
     ++count_;
+  }
+  // u at b, and how the bounds change with b. The speed at the interval's end gives the first two.
+  struct Room {
+    double low, high, low_slope, high_slope;
+  };
+  Room room_at(double b) const {
+    Room out{-ramp_ * b, end_ - ramp_ * b, -ramp_, -ramp_};
+    for (std::size_t i = 0; i < count_; ++i) {
+      const double u = middle_[i] * b;
+      if (u + half_[i] < out.high) {
+        out.high = u + half_[i];
+        out.high_slope = middle_[i];
+      }
+      if (u - half_[i] > out.low) {
+        out.low = u - half_[i];
+        out.low_slope = middle_[i];
+      }
+    }
+    return out;
   }
   // Without any cap the rows themselves end at some b: where every pair of lines has crossed.
   double largest_finite_b() const {
     double b = 0;
-    for (std::size_t i = 0; i < count_; ++i)
-      for (std::size_t k = 0; k < count_; ++k)
-        if (const double slope = upper_[i].slope - lower_[k].slope; slope < 0)
-          b = std::max(b, (upper_[i].value - lower_[k].value) / -slope);
+    const auto cross = [&b](double high, double high_slope, double low, double low_slope) {
+      if (high_slope < low_slope) b = std::max(b, (high - low) / (low_slope - high_slope));
+    };
+    for (std::size_t i = 0; i < count_; ++i) {
+      cross(half_[i], middle_[i], 0, -ramp_);
+      cross(end_, -ramp_, -half_[i], middle_[i]);
+      for (std::size_t k = 0; k < count_; ++k) cross(half_[i], middle_[i], -half_[k], middle_[k]);
+    }
     return b;
-  }
-  Bound highest(double b) const {  // the lowest of the upper lines
-    Bound best = upper_[0];
-    for (std::size_t i = 1; i < count_; ++i)
-      if (upper_[i].at(b) < best.at(b)) best = upper_[i];
-    return best;
-  }
-  Bound lowest(double b) const {
-    Bound best = lower_[0];
-    for (std::size_t i = 1; i < count_; ++i)
-      if (lower_[i].at(b) > best.at(b)) best = lower_[i];
-    return best;
   }
 
   double ds_;
   double cap_;
   double room_;
+  double ramp_;  ///< u = (b_next − b) · ramp reaches b_next at the end
+  double end_;
   std::size_t count_ = 0;
-  std::array<Bound, 2 * machine::max_joints + 1> upper_, lower_;
+  std::array<double, 2 * machine::max_joints> middle_, half_;
 };
 
-LimitedBy cause_at(const Grid& grid, std::size_t node, double b0, double b1) {
-  const bool capped = b0 >= grid.cap[node] * (1 - 1e-9) && b1 >= grid.cap[node + 1] * (1 - 1e-9);
-  if (!capped) return LimitedBy::acceleration;
-  return grid.why[node] == Cap::feed ? LimitedBy::feed : LimitedBy::velocity;
+Cause cause_at(const Grid& grid, std::size_t node, double b0, double b1, double u) {
+  const GridNode& here = grid.at[node];
+  if (b0 >= here.cap * (1 - 1e-9) && b1 >= grid.at[node + 1].cap * (1 - 1e-9)) return here.why;
+  // The joint that uses most of its acceleration, at either end.
+  Cause out{LimitedBy::acceleration, 0};
+  double most = -1;
+  for (int j = 0; j < grid.joints; ++j) {
+    const double share =
+        std::max(std::abs(grid.alpha(node)[j] * u + grid.beta(node)[j] * b0),
+                 std::abs(grid.alpha(node + 1)[j] * u + grid.beta(node + 1)[j] * b1));
+    if (share > most) {
+      most = share;
+      out.joint = static_cast<signed char>(j);
+    }
+  }
+  return out;
 }
 
 struct RideMaker {
@@ -122,12 +142,12 @@ struct RideMaker {
   double s = 0;
 
   // Constant acceleration from b0 to b1 over ds.
-  void go(double ds, double b0, double b1, LimitedBy cause) {
+  void go(double ds, double b0, double b1, Cause cause) {
     if (!(ds > 0)) return;
     const double v0 = std::sqrt(b0), v1 = std::sqrt(b1);
     const double dt = 2 * ds / (v0 + v1);
     ride.profile.knots.push_back({t, s, v0, (b1 - b0) / (2 * ds), 0});
-    ride.time[static_cast<std::size_t>(cause)] += dt;
+    ride.spent.add(cause, dt);
     t += dt;
     s += ds;
   }
@@ -135,18 +155,17 @@ struct RideMaker {
 
 Ride ride_uniform(const Grid& grid, double b_start, double b_end) {
   const double length = grid.length(), a = grid.uniform_a;
-  const double cap = grid.cap.front();
+  const double cap = grid.at.front().cap;
+  const Cause ramp{LimitedBy::acceleration, grid.uniform_joint};
   b_end = std::min(b_end, b_start + 2 * a * length);
   const double peak = std::min(cap, (b_start + b_end) / 2 + a * length);
   const double up = (peak - b_start) / (2 * a), down = (peak - b_end) / (2 * a);
   const double cruise = std::max(length - up - down, 0.0);
   RideMaker maker;
   maker.ride.profile.knots.reserve(4);
-  maker.go(up, b_start, peak, LimitedBy::acceleration);
-  if (peak >= cap)
-    maker.go(cruise, peak, peak,
-             grid.why.front() == Cap::feed ? LimitedBy::feed : LimitedBy::velocity);
-  maker.go(down, peak, b_end, LimitedBy::acceleration);
+  maker.go(up, b_start, peak, ramp);
+  if (peak >= cap) maker.go(cruise, peak, peak, grid.at.front().why);
+  maker.go(down, peak, b_end, ramp);
   maker.ride.profile.knots.push_back({maker.t, length, std::sqrt(b_end), 0, 0});
   maker.ride.b_end = b_end;
   return std::move(maker.ride);
@@ -154,12 +173,24 @@ Ride ride_uniform(const Grid& grid, double b_start, double b_end) {
 
 }  // namespace
 
+Cause CauseTimes::longest() const {
+  Cause out;
+  double most = 0;
+  for (std::size_t by = 0; by < time_.size(); ++by)
+    for (std::size_t j = 0; j < time_[by].size(); ++j)
+      if (time_[by][j] > most) {
+        most = time_[by][j];
+        out = {static_cast<LimitedBy>(by), static_cast<signed char>(static_cast<int>(j) - 1)};
+      }
+  return out;
+}
+
 void brake(const Grid& grid, double b_end, Controllable& out) {
   const std::size_t n = grid.nodes();
   out.resize(n);
-  out[n - 1] = std::min(grid.cap[n - 1], b_end);
+  out[n - 1] = std::min(grid.at[n - 1].cap, b_end);
   if (grid.uniform) {
-    out[0] = std::min(grid.cap[0], out[n - 1] + 2 * grid.uniform_a * grid.length());
+    out[0] = std::min(grid.at[0].cap, out[n - 1] + 2 * grid.uniform_a * grid.length());
     return;
   }
   for (std::size_t k = n - 1; k-- > 0;) out[k] = Interval(grid, k, out[k + 1]).largest_b();
@@ -174,7 +205,7 @@ Ride accelerate(const Grid& grid, const Controllable& controllable, double b_sta
     const Interval interval(grid, k, controllable[k + 1]);
     const double u = interval.largest_u(b);
     const double next = std::clamp(b + 2 * u * interval.ds(), 0.0, controllable[k + 1]);
-    maker.go(interval.ds(), b, next, cause_at(grid, k, b, next));
+    maker.go(interval.ds(), b, next, cause_at(grid, k, b, next, u));
     b = next;
   }
   maker.ride.profile.knots.push_back({maker.t, grid.length(), std::sqrt(b), 0, 0});

@@ -13,11 +13,24 @@ using Controllable = std::vector<double>;
 /// Fills `out` for a piece that must be left with b ≤ `b_end`.
 void brake(const Grid& grid, double b_end, Controllable& out);
 
+/// How long each cause held the speed.
+class CauseTimes {
+ public:
+  void add(Cause cause, double seconds) {
+    time_[static_cast<std::size_t>(cause.by)][static_cast<std::size_t>(cause.joint + 1)] += seconds;
+  }
+  /// The cause with the most time.
+  Cause longest() const;
+
+ private:
+  std::array<std::array<double, machine::max_joints + 1>, 5> time_{};
+};
+
 /// Result of carrying a piece out.
 struct Ride {
   SpeedProfile profile;
   double b_end = 0;
-  std::array<double, 5> time{};  ///< s spent, by LimitedBy
+  CauseTimes spent;
 };
 
 /// The fastest ride from b_start, given what brake() found.

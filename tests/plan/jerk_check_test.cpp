@@ -26,7 +26,7 @@ struct StraightRide : ::testing::Test {
     line.end = xyz(length, 0, 0);
     line.length = length;
     item.segment.path = line;
-    item.grid.s = {0, length};
+    item.grid.at = {{}, {length, 0, 1, {}}};
     items.push_back(std::move(item));
   }
   std::vector<LawKnot> law(double a, double j) const {

@@ -24,9 +24,7 @@ Grid straight(double length, double v, double a) {
   grid.uniform = true;
   grid.uniform_a = a;
   grid.joints = 1;
-  grid.s = {0, length};
-  grid.cap = {v * v, v * v};
-  grid.why = {Cap::velocity, Cap::velocity};
+  grid.at = {{0, v * v, 1, {LimitedBy::velocity, 0}}, {length, v * v, 1, {LimitedBy::velocity, 0}}};
   return grid;
 }
 
@@ -35,10 +33,7 @@ Grid with_nodes(double length, double v, double a, int n) {
   Grid grid;
   grid.joints = 1;
   for (int k = 0; k <= n; ++k) {
-    grid.s.push_back(length * k / n);
-    grid.cap.push_back(v * v);
-    grid.why.push_back(Cap::velocity);
-    if (k > 0) grid.room.push_back(1);
+    grid.at.push_back({length * k / n, v * v, 1, {LimitedBy::velocity, 0}});
     grid.rows.insert(grid.rows.end(), {1 / a, 0});
   }
   return grid;
