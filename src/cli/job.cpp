@@ -84,9 +84,10 @@ bool open_inputs(Job& job, const ProgramArguments& arguments, std::optional<doub
   if (!open_ini(job, arguments)) return false;
   const double unit_mm = job.control ? job.control->unit_mm : 1.0;
   if (!arguments.machine.empty() && arguments.machine != ini_of(arguments)) {
-    const auto path = machine::find_package(arguments.machine, package_folders());
+    const auto [package, channel] = machine::split_channel(arguments.machine);
+    const auto path = machine::find_package(package, package_folders());
     if (!path) return fail(path.error());
-    auto machine = machine::read_machine(*path, job.sources, out);
+    auto machine = machine::read_machine(*path, job.sources, out, channel);
     if (!machine) return fail(machine.error());
     job.machine = *machine;
     job.inputs.push_back({"machine", arguments.machine, hash_of_package(job.machine->folder())});
@@ -147,7 +148,10 @@ interp::Options interpreter_options(const Job& job, const ProgramArguments& argu
   if (dialect == "haas") options.dialect = interp::Dialect::haas;
   if (automatic) interp::choose_dialect(options, program.content());
   options.whole_units = arguments.whole_units;
-  options.lathe = arguments.lathe || (job.machine && !options.axes.has(Axis::y));
+  // A turning centre's code system is one of Fanuc-like controls; LinuxCNC has the same codes for
+  // all.
+  options.lathe = options.dialect != interp::Dialect::linuxcnc &&
+                  (arguments.lathe || (job.machine && !options.axes.has(Axis::y)));
   options.block_delete = arguments.block_delete;
   options.optional_stop = arguments.optional_stop;
   options.set = arguments.set;

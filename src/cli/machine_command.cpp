@@ -19,6 +19,9 @@ void print_info(const machine::Machine& machine, const tool::ToolTable& tools) {
               std::string(machine.kinematics().type()).c_str());
   for (const Axis axis : all_axes)
     if (machine.kinematics().axes().has(axis)) std::printf("%c", letter(axis));
+  for (const std::string& channel : machine.channels())
+    std::printf("%s%s", &channel == &machine.channels().front() ? "\n  channels " : ", ",
+                (printable(channel) + (channel == machine.channel() ? " (driven)" : "")).c_str());
   std::printf("\n  joint        range                      speed      acceleration  home\n");
   for (int j = 0; j < machine.joint_count(); ++j) {
     const machine::Joint& joint = machine.joint(machine::JointId{j});
@@ -30,6 +33,11 @@ void print_info(const machine::Machine& machine, const tool::ToolTable& tools) {
                 fixed(joint.amax * scale, 0).c_str(), rotary ? "deg" : "mm",
                 fixed(joint.home * scale, 3).c_str());
   }
+  for (const machine::Joint& joint : machine.tree())
+    if (joint.held)
+      std::printf(
+          "  %-12s stays at %s: of another channel\n", printable(joint.name).c_str(),
+          fixed(joint.home * (joint.kind == machine::JointKind::rotary ? degrees : 1), 3).c_str());
   std::printf("  bodies\n");
   for (const machine::Body& body : machine.bodies()) {
     const Box3 box = bounds(*body.mesh);

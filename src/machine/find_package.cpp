@@ -28,6 +28,15 @@ std::vector<std::string> packages_in(const std::vector<std::string>& folders) {
 
 }  // namespace
 
+std::pair<std::string, std::string> split_channel(const std::string& what) {
+  const std::size_t colon = what.rfind(':');
+  std::error_code error;
+  if (colon == std::string::npos || what.find('/', colon) != std::string::npos ||
+      fs::exists(what, error))
+    return {what, {}};
+  return {what.substr(0, colon), what.substr(colon + 1)};
+}
+
 Expected<std::string> find_package(const std::string& what,
                                    const std::vector<std::string>& search) {
   const auto fail = [](std::string message) {

@@ -81,17 +81,19 @@ std::size_t passive_index(const Machine& machine, const Joint& joint) {
 void forward(const Machine& machine, const JointVector& joints, LinkPoses& out) {
   constexpr std::size_t max_passive = 32;
   std::array<double, max_passive> passive{};
-  const bool any_passive = machine.tree().size() > static_cast<std::size_t>(machine.joint_count());
-  if (any_passive) {
-    const auto count = static_cast<std::size_t>(machine.kinematics().passive_count());
+  const bool more_couples = machine.tree().size() > static_cast<std::size_t>(machine.joint_count());
+  const auto count =
+      more_couples ? static_cast<std::size_t>(machine.kinematics().passive_count()) : 0;
+  if (count > 0) {
     assert(count <= max_passive);
     machine.kinematics().passive(joints, std::span(passive).first(count));
   }
   out.X_WL.resize(machine.links().size());
   out.X_WL[0] = Pose::Identity();
   for (const Joint& joint : machine.tree()) {  // parents come before children
-    const double q =
-        joint.driven >= 0 ? joints[joint.driven] : passive[passive_index(machine, joint)];
+    const double q = joint.driven >= 0 ? joints[joint.driven]
+                     : joint.held      ? joint.home
+                                       : passive[passive_index(machine, joint)];
     out.X_WL[static_cast<std::size_t>(index(joint.child))] =
         out.X_WL[static_cast<std::size_t>(index(joint.parent))] * couple_pose(joint, q);
   }

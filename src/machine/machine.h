@@ -47,7 +47,8 @@ struct Joint {
   Vec3 origin = Vec3::Zero();      ///< a point of the axis, bed axes, all joints zero
   Vec3 direction = Vec3::UnitZ();  ///< unit vector
   double sense = 1;                ///< child moves by sense · q
-  int driven = -1;                 ///< JointId, or -1 for a passive joint
+  int driven = -1;                 ///< JointId, or -1 for a passive or a held joint
+  bool held = false;               ///< of another channel: it stays at home
   std::string passive;             ///< name of the kinematics' passive value, or empty
   int passive_index = -1;          ///< its place in Kinematics::passive(); -1 = found by name
   // Limits, driven joints only: mm or rad, s. Infinity = no limit.
@@ -256,6 +257,10 @@ class Machine {
   /// Of the programs that it runs: "linuxcnc", "fanuc" or "haas".
   const std::string& dialect() const { return dialect_; }
   const std::string& folder() const { return folder_; }
+  /// Names of the channels of a machine with several tools or workpieces, each a pair of them and
+  /// the axes that move it; empty when there is just one. One is driven, `channel()`.
+  const std::vector<std::string>& channels() const { return channels_; }
+  const std::string& channel() const { return channel_; }
   const std::vector<Link>& links() const { return links_; }
   /// All couples, parents before children.
   const std::vector<Joint>& tree() const { return tree_; }
@@ -284,6 +289,8 @@ class Machine {
   // Filled by the package reader and by tests that build a machine by hand.
   std::string name_;
   std::string folder_;
+  std::vector<std::string> channels_;
+  std::string channel_;
   std::vector<Link> links_{Link{"bed"}};
   std::vector<Joint> tree_;
   std::vector<int> driven_;  ///< index into tree_ by JointId
@@ -371,15 +378,19 @@ struct Setup {
 };
 
 /// Reads `machine.toml` at `path` (a package folder, or the file itself) with its meshes.
+/// `channel` is the one that is driven, by default the one that the file names.
 /// All problems go to `out`; the value is there only if there was no error.
 Expected<std::shared_ptr<const Machine>> read_machine(const std::string& path, SourceMap& sources,
-                                                      Diagnostics& out);
+                                                      Diagnostics& out,
+                                                      const std::string& channel = {});
 /// Reads setup.toml and returns the machine with its fixtures placed as the setup says.
 Expected<Setup> read_setup(const std::string& path, const Machine& machine, SourceMap& sources,
                            Diagnostics& out);
 Expected<std::shared_ptr<const Machine>> apply_setup(const Machine& machine, const Setup& setup,
                                                      SourceMap& sources, Diagnostics& out);
 
+/// `NAME:CHANNEL` in two; a name without a channel, or of a file whose name has a colon, is whole.
+std::pair<std::string, std::string> split_channel(const std::string& what);
 /// A package by folder, file, or by name among `search` folders; an unknown name lists the nearest.
 Expected<std::string> find_package(const std::string& what, const std::vector<std::string>& search);
 

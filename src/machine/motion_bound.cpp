@@ -18,6 +18,10 @@
 
 namespace aircut::machine {
 
+namespace {
+constexpr std::size_t never_moves = static_cast<std::size_t>(-1);  // couple of another channel
+}
+
 struct MotionBound::Ball {
   Vec3 centre;  // world
   double radius;
@@ -29,6 +33,8 @@ MotionBound::MotionBound(const Machine& machine) : machine_(&machine) {
     std::size_t slot = 0;
     if (joint.driven >= 0) {
       slot = static_cast<std::size_t>(joint.driven);
+    } else if (joint.held) {
+      slot = never_moves;
     } else {
       const auto found = std::find(passive.begin(), passive.end(), joint.passive);
       assert(found != passive.end() && "the kinematics has a value for every passive couple");
@@ -55,6 +61,7 @@ double MotionBound::over(int couple, double moved, const Ball& ball, const LinkP
                          std::span<const double> travel) const {
   const auto at = static_cast<std::size_t>(couple);
   const Joint& joint = machine_->tree()[at];
+  if (travel_index_[at] == never_moves) return moved;
   const double way = travel[travel_index_[at]];
   if (joint.kind == JointKind::linear) return moved + way;
   const Pose& X_WL = poses.X_WL[static_cast<std::size_t>(index(joint.parent))];

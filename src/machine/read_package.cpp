@@ -3,114 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 
 #include "machine/kinematics/kinematics_table.h"
 #include "machine/reading.h"
-#include "machine/rotation/rotation.h"
 
 namespace aircut::machine {
 
 namespace {
 
 constexpr long our_schema = 1;
-
-void read_kinematics(config::Table& top, ReadState& state) {
-  auto table = top.table("kinematics");
-  if (!table) {
-    if (!top.has("kinematics"))
-      top.error("kinematics", "[kinematics] is missing: it says how joints move the tool");
-    return;
-  }
-  const std::string rapid =
-      table->choice("rapid", {"coordinated", "joint", "dogleg"}, "coordinated");
-  state.machine.rapid_ = rapid == "joint"    ? RapidMode::joint
-                         : rapid == "dogleg" ? RapidMode::dogleg
-                                             : RapidMode::coordinated;
-  if (table->has("tcp")) {
-    table->know("tcp");
-    table->error("tcp", "'tcp' is not supported by this version");
-  }
-  const std::vector<std::string> types = kinematics_types();
-  const std::string type = table->required_text("type");
-  std::vector<Joint> driven;
-  for (const int at : state.machine.driven_) {
-    if (static_cast<std::size_t>(at) >= state.machine.tree_.size()) return;
-    driven.push_back(state.machine.tree_[static_cast<std::size_t>(at)]);
-  }
-  for (const KinematicsRow& row : kinematics_table()) {
-    if (row.type != type) continue;
-    KinematicsInput input{*table, state.unit_mm, driven, state.machine};
-    state.machine.kinematics_ = row.make(input);
-    return;
-  }
-  if (type.empty()) return;  // said already
-  std::string known;
-  for (const std::string& word : types) known += (known.empty() ? "" : ", ") + word;
-  table->error("type", "unknown kinematics '" + type + "'; this version knows " + known + "." +
-                           did_you_mean(type, types));
-  for (const std::string& key : table->keys()) table->know(key);  // whose keys they are is open
-}
-
-// Every passive couple has a value, and every value moves a couple.
-void match_passive(config::Table& top, Machine& machine) {
-  if (!machine.kinematics_) return;
-  const std::vector<std::string> names = machine.kinematics().passive_names();
-  const std::vector<config::Table> tables = top.tables("axis");
-  const auto table_of = [&](const Joint& joint) {
-    return *std::find_if(tables.begin(), tables.end(),
-                         [&](config::Table table) { return table.text("name", "") == joint.name; });
-  };
-  std::set<std::string> used;
-  for (Joint& joint : machine.tree_) {
-    if (joint.driven >= 0) continue;
-    const auto found = std::find(names.begin(), names.end(), joint.passive);
-    if (found == names.end()) {
-      table_of(joint).error("passive", "the kinematics '" +
-                                           std::string(machine.kinematics().type()) +
-                                           "' has no passive value '" + joint.passive + "'." +
-                                           did_you_mean(joint.passive, names));
-      continue;
-    }
-    joint.passive_index = static_cast<int>(found - names.begin());
-    used.insert(joint.passive);
-    const bool angle = joint.passive.ends_with("_angle");
-    if (angle != (joint.kind == JointKind::rotary))
-      table_of(joint).error("kind", "'" + joint.passive + "' is " +
-                                        (angle ? "an angle, so its axis must be rotary"
-                                               : "a length, so its axis must be linear"));
-  }
-  for (const std::string& name : names)
-    if (!used.contains(name))
-      top.error("kinematics", "no [[axis]] has passive = \"" + name +
-                                  "\": a part that the kinematics moves is not in the tree");
-}
-
-void read_spindle(config::Table& top, ReadState& state) {
-  auto table = top.table("spindle");
-  if (!table) {
-    if (!top.has("spindle"))
-      top.error("spindle",
-                "[spindle] is missing: the link that carries the tool and its gauge point");
-    return;
-  }
-  Spindle& spindle = state.machine.spindle_;
-  if (!table->has("link"))
-    table->error("link", "'link' is missing: the link that carries the tool");
-  spindle.link = read_link(*table, "link", "bed", state.machine);
-  if (!table->has("gauge"))
-    table->error("gauge", "'gauge' is missing: the point where the tool length is 0, in bed axes");
-  spindle.gauge = point(*table, "gauge", Vec3::Zero(), state.unit_mm);
-  if (const auto angles = table->numbers("angles", 3))
-    spindle.R_LF = spindle.R_LF * about_fixed_axes(Vec3((*angles)[0], (*angles)[1], (*angles)[2]) *
-                                                   std::numbers::pi / 180);
-  if (const auto rpm = table->numbers("rpm", 2)) {
-    spindle.min_rpm = (*rpm)[0];
-    spindle.max_rpm = (*rpm)[1];
-    if (!(0 <= spindle.min_rpm && spindle.min_rpm <= spindle.max_rpm && spindle.max_rpm > 0))
-      table->error("rpm", "'rpm' needs [lowest, highest], 0 or more each");
-  }
-}
 
 double seconds(config::Table& table, const std::string& key) {
   const double value = table.number(key, 0);
@@ -271,7 +172,8 @@ void check_schema(config::Table& top) {
 Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& text,
                                                            const std::string& folder,
                                                            const PackageFiles& files,
-                                                           Diagnostics& out) {
+                                                           Diagnostics& out,
+                                                           const std::string& channel) {
   config::Reader reader(text, "machine_invalid");
   config::Table top = reader.top();
   if (!top.has("schema")) top.error("schema", "'schema' is missing: write schema = 1");
@@ -288,9 +190,7 @@ Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& tex
   ReadState state{*machine, read_units(top, 1.0), files};
 
   read_tree(top, state);
-  read_spindle(top, state);
-  read_kinematics(top, state);
-  match_passive(top, *machine);
+  const std::vector<Drive> drives = read_drives(top, channel, state);
   machine->bodies_ = read_bodies(top, "", bed_link, state);
   check_body_names(top, *machine);
   for (Diagnostic& problem : read_default_fixtures(top, state)) top.report(std::move(problem));
@@ -301,15 +201,20 @@ Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& tex
 
   Diagnostics problems = reader.finish();
   if (problems.errors() == 0)
-    if (const auto reason = tree_disagrees(*machine))
-      problems.error("machine_invalid", top.span("kinematics"), *reason);
+    for (const Drive& drive : drives) {
+      Machine driven = *machine;
+      drive.put_on(driven);
+      if (const auto reason = tree_disagrees(driven))
+        problems.error("machine_invalid", drive.span, *reason);
+    }
   for (const Diagnostic& problem : problems.list()) out.add(problem);
   if (problems.errors() == 0) return std::shared_ptr<const Machine>(machine);
   return unexpected(summary(problems, "machine_invalid", "the machine's file"));
 }
 
 Expected<std::shared_ptr<const Machine>> read_machine(const std::string& path, SourceMap& sources,
-                                                      Diagnostics& out) {
+                                                      Diagnostics& out,
+                                                      const std::string& channel) {
   namespace fs = std::filesystem;
   std::error_code error;
   const fs::path file =
@@ -320,7 +225,7 @@ Expected<std::shared_ptr<const Machine>> read_machine(const std::string& path, S
     return unexpected(text.error());
   }
   const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
-  return read_machine_text(**text, folder, disk_files(folder, sources), out);
+  return read_machine_text(**text, folder, disk_files(folder, sources), out, channel);
 }
 
 }  // namespace aircut::machine

@@ -5,7 +5,6 @@
 
 #include "machine/kinematics/kinematics_table.h"
 #include "machine/reading.h"
-#include "machine/rotation/rotation.h"
 
 namespace aircut::machine {
 
@@ -18,7 +17,7 @@ struct Axle {
   config::Table table;
   Joint joint;
   std::string parent, child;
-  std::optional<double> sense;
+  std::optional<double> sense;  ///< nothing: ISO 841 says it
 };
 
 double positive(config::Table& table, const std::string& key, double unit,
@@ -121,6 +120,7 @@ Axle read_axle(config::Table table, double unit_mm) {
   axle.sense = table.number("sense");
   if (axle.sense && *axle.sense != 1 && *axle.sense != -1)
     table.error("sense", "'sense' must be 1 or -1, this is " + shortest(*axle.sense));
+  joint.sense = axle.sense.value_or(1);
   joint.passive = table.text("passive", "");
   if (table.has("passive"))
     refuse_limits_of_passive(table, joint.name);
@@ -197,32 +197,6 @@ void grow(std::vector<Axle>& axles, Machine& machine) {
   }
 }
 
-// ISO 841: letters describe the tool's motion relative to the work, so an axis that moves the work
-// moves it the other way.
-void set_senses(const std::vector<Axle>& axles, Machine& machine) {
-  for (Joint& joint : machine.tree_)
-    for (const Axle& axle : axles)
-      if (axle.joint.name == joint.name) joint.sense = axle.sense.value_or(1);
-  for (LinkId link = machine.work_link_; link != bed_link;) {
-    const Link& at = machine.links_[static_cast<std::size_t>(index(link))];
-    Joint& joint = machine.tree_[static_cast<std::size_t>(at.joint)];
-    for (const Axle& axle : axles)
-      if (axle.joint.name == joint.name && !axle.sense) joint.sense = -1;
-    link = at.parent;
-  }
-}
-
-void read_work(config::Table& top, ReadState& state) {
-  auto work = top.table("work");
-  if (!work) return;
-  state.machine.work_link_ = read_link(*work, "link", "bed", state.machine);
-  Pose& X_LM = state.machine.X_LM_;
-  X_LM = translation(point(*work, "origin", Vec3::Zero(), state.unit_mm));
-  if (const auto angles = work->numbers("angles", 3))
-    X_LM.linear() = about_fixed_axes(Vec3((*angles)[0], (*angles)[1], (*angles)[2]) * deg);
-  state.machine.spindle_.R_LF = X_LM.linear();
-}
-
 }  // namespace
 
 LinkId read_link(config::Table& table, const std::string& key, const std::string& fallback,
@@ -252,9 +226,9 @@ void read_tree(config::Table& top, ReadState& state) {
   state.machine.driven_.assign(static_cast<std::size_t>(driven), 0);
   check_names(axles);
   check_parents(axles);
+  for (const Axle& axle : axles)
+    if (!axle.sense) state.open_senses.insert(axle.joint.name);
   grow(axles, state.machine);
-  read_work(top, state);
-  set_senses(axles, state.machine);
 }
 
 }  // namespace aircut::machine

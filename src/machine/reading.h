@@ -18,13 +18,15 @@ struct ReadState {
   const PackageFiles& files;
   std::size_t triangles = 0;  ///< of all different meshes so far
   std::set<const TriangleMesh*> counted = {};
+  std::set<std::string> open_senses = {};  ///< names of axes whose file gives no sense
 };
 
 /// A machine.toml from its text; the files it names come through `files`.
 Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& text,
                                                            const std::string& folder,
                                                            const PackageFiles& files,
-                                                           Diagnostics& out);
+                                                           Diagnostics& out,
+                                                           const std::string& channel = {});
 /// Likewise a setup.toml.
 Expected<Setup> read_setup_text(const SourceText& text, const Machine& machine, Diagnostics& out);
 
@@ -36,8 +38,26 @@ double read_units(config::Table& top, double fallback);
 /// Key `schema`, which must not be newer than ours.
 void check_schema(config::Table& top);
 
-/// Links and couples from `[[axis]]`, and the work link from `[work]`.
+/// Links and couples from `[[axis]]`. All are driven that are not passive.
 void read_tree(config::Table& top, ReadState& state);
+
+/// One pair of a tool and a workpiece, the axes that move them, and how: what `[kinematics]`,
+/// `[work]` and `[spindle]` say, or a `[[channel]]` with these tables.
+struct Drive {
+  std::string name;  ///< of the channel, or empty
+  SourceSpan span;
+  std::vector<Joint> tree;
+  std::vector<int> driven;
+  std::shared_ptr<const Kinematics> kinematics;
+  Spindle spindle;
+  RapidMode rapid = RapidMode::coordinated;
+  LinkId work_link = bed_link;
+  Pose X_LM = Pose::Identity();
+
+  void put_on(Machine& machine) const;
+};
+/// All of them; the machine gets the one that `channel` names (empty: the file's choice).
+std::vector<Drive> read_drives(config::Table& top, const std::string& channel, ReadState& state);
 
 /// `[[body]]` tables of a machine.toml or, with a prefix, of a fixture file.
 std::vector<Body> read_bodies(config::Table& top, const std::string& prefix, LinkId link,

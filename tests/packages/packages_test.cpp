@@ -40,9 +40,10 @@ std::vector<std::string> packages() {
   return folders;
 }
 
-std::shared_ptr<const Machine> read(const std::string& path, SourceMap& sources) {
+std::shared_ptr<const Machine> read(const std::string& path, SourceMap& sources,
+                                    const std::string& channel = {}) {
   Diagnostics out;
-  auto result = machine::read_machine(path, sources, out);
+  auto result = machine::read_machine(path, sources, out, channel);
   for (const Diagnostic& d : out.list()) ADD_FAILURE() << format_gcc(d);
   return result ? *result : nullptr;
 }
@@ -107,48 +108,64 @@ bool carries(const Machine& machine, machine::LinkId link, machine::LinkId end) 
   return end == link && link != machine::bed_link;
 }
 
-// A head reaches a tilting table at the ends of its travel: of such a pair nothing is promised but
-// at home. (The program decides; that is what runs are checked for.)
+// A head reaches a tilting table at the ends of its travel, a ram a turning one, a turret a spindle
+// that comes to meet it or that it swivels to: of such a pair nothing is promised but at home. (The
+// program decides; that is what runs are checked for.)
 bool work_against_tool(const Machine& machine, const Body& a, const Body& b) {
   const auto spindle = machine.spindle().link, work = machine.work_link();
   return (carries(machine, a.link, spindle) && carries(machine, b.link, work)) ||
          (carries(machine, b.link, spindle) && carries(machine, a.link, work));
 }
 
+bool may_meet(const Machine& machine) {
+  const std::string_view type = machine.kinematics().type();
+  return type == "chain" || type == "lathe-vertical" || machine.channels().size() > 1;
+}
+
+void expect_bodies_apart(const Machine& machine) {
+  std::vector<const Body*> bodies;
+  std::vector<collide::CollisionMesh> meshes;
+  for (const Body& body : machine.bodies())
+    if (body.collide) {
+      bodies.push_back(&body);
+      meshes.emplace_back(*body.mesh);
+    }
+  Random random(7);
+  LinkPoses poses;
+  std::set<std::string> told;
+  // An arm reaches its own pedestal and the table; apart at home is all that can be promised.
+  const int positions = machine.kinematics().type().starts_with("robot") ? 1 : 2000;
+  for (int k = 0; k < positions; ++k) {
+    const JointVector joints = k == 0 ? machine.home() : somewhere(machine, random);
+    machine::forward(machine, joints, poses);
+    const auto pose = [&](std::size_t i) {
+      return poses.X_WL[static_cast<std::size_t>(index(bodies[i]->link))] * bodies[i]->X_LB;
+    };
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      for (std::size_t j = i + 1; j < bodies.size(); ++j) {
+        if (excluded(machine, *bodies[i], *bodies[j])) continue;
+        if (k > 0 && may_meet(machine) && work_against_tool(machine, *bodies[i], *bodies[j]))
+          continue;
+        const auto gap = collide::distance(meshes[i], pose(i), meshes[j], pose(j), promised_gap);
+        const std::string pair = bodies[i]->name + " – " + bodies[j]->name;
+        if (!gap.capped && told.insert(pair).second)
+          ADD_FAILURE() << pair << ": " << gap.value << " mm at joints " << joints.transpose();
+      }
+  }
+}
+
 TEST(PackageModels, KeepTheirBodiesApartOverTheWholeTravel) {
   for (const std::string& folder : packages()) {
-    SCOPED_TRACE(folder);
     SourceMap sources;
     const auto machine = read(folder, sources);
     ASSERT_TRUE(machine);
-    std::vector<const Body*> bodies;
-    std::vector<collide::CollisionMesh> meshes;
-    for (const Body& body : machine->bodies())
-      if (body.collide) {
-        bodies.push_back(&body);
-        meshes.emplace_back(*body.mesh);
-      }
-    Random random(7);
-    LinkPoses poses;
-    std::set<std::string> told;
-    // An arm reaches its own pedestal and the table; apart at home is all that can be promised.
-    const int positions = machine->kinematics().type().starts_with("robot") ? 1 : 2000;
-    const bool tilts = machine->kinematics().type() == "chain";
-    for (int k = 0; k < positions; ++k) {
-      const JointVector joints = k == 0 ? machine->home() : somewhere(*machine, random);
-      machine::forward(*machine, joints, poses);
-      const auto pose = [&](std::size_t i) {
-        return poses.X_WL[static_cast<std::size_t>(index(bodies[i]->link))] * bodies[i]->X_LB;
-      };
-      for (std::size_t i = 0; i < bodies.size(); ++i)
-        for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-          if (excluded(*machine, *bodies[i], *bodies[j])) continue;
-          if (tilts && k > 0 && work_against_tool(*machine, *bodies[i], *bodies[j])) continue;
-          const auto gap = collide::distance(meshes[i], pose(i), meshes[j], pose(j), promised_gap);
-          const std::string pair = bodies[i]->name + " – " + bodies[j]->name;
-          if (!gap.capped && told.insert(pair).second)
-            ADD_FAILURE() << pair << ": " << gap.value << " mm at joints " << joints.transpose();
-        }
+    std::vector<std::string> channels = machine->channels();
+    if (channels.empty()) channels = {""};
+    for (const std::string& channel : channels) {
+      SCOPED_TRACE(folder + ":" + channel);
+      const auto driven = channel == machine->channel() ? machine : read(folder, sources, channel);
+      ASSERT_TRUE(driven);
+      expect_bodies_apart(*driven);
     }
   }
 }

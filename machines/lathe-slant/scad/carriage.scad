@@ -1,0 +1,4 @@
+// Z slide.
+include <params.scad>
+
+carriage(gauge);
