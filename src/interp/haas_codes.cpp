@@ -34,7 +34,7 @@ constexpr CodeRule common[] = {
     {'G', 1290, G::work_system,  P::work_system,   none,   "",      fanuc_work_system},
     {'G', 1540, G::work_system,  P::work_system,   none,   "P",     fanuc_work_system},
     // They move nothing, and are not modelled.
-    {'G', 1030, G::free,         P::control,       none,   "",      accepted},
+    {'G', 1030, G::free,         P::control,       none,   "P",     accepted},
     {'G', 1870, G::free,         P::control,       none,   "PE",    accepted},
     // Brakes, conveyors, doors, jets, gears, displays: they move no axis of the program.
     {'M',  10, G::free,          P::user,          none,   "PQRIJK", accepted},

@@ -48,6 +48,7 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
 void Interpreter::Impl::start(const ParameterFile& file) {
   state_.unit = options_.start_unit;
   if (table_.dialect().motion_at_start) state_.motion = 0;
+  state_.retract_to_r = !table_.dialect().macro_b;  // Fanuc and Haas switch on with G98
   if (table_.dialect().macro_b && options_.lathe) {
     state_.plane = canon::Plane::zx;
     state_.lathe_diameter = true;

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <regex>
 #include <set>
 
 #include "interp/code_table.h"
+#include "interp/codes/codes.h"
 #include "interp_programs/program_file.h"
 
 namespace aircut::test {
@@ -165,6 +167,119 @@ TEST(Programs, ExecuteEveryRowOfTheCodeTable) {
     if (!rule->handler) continue;  // an `unsupported_code` error
     EXPECT_GT(executed[interp::name_of(*rule)], 0u) << name_of(*rule) << " has no program";
   }
+}
+
+struct Control {
+  const char* name;
+  interp::Dialect dialect;
+  bool lathe;
+};
+constexpr Control other_controls[] = {{"Fanuc mill", interp::Dialect::fanuc, false},
+                                      {"Fanuc lathe", interp::Dialect::fanuc, true},
+                                      {"Haas mill", interp::Dialect::haas, false},
+                                      {"Haas lathe", interp::Dialect::haas, true}};
+
+// What the control's builder gives a meaning is one row for each of a thousand numbers.
+bool is_of_the_builder(const interp::CodeRule& rule) {
+  return rule.handler == interp::builder_code;
+}
+
+// Controls share rows, so a row is executed when a program of any of them does it. What a row can
+// do may be to refuse its line with a reason of its own.
+TEST(Programs, ExecuteEveryRowOfTheOtherControls) {
+  std::set<const interp::CodeRule*> executed;
+  for (const ProgramFile& program : read_program_folder(fanuc_folder)) {
+    const Outcome outcome = run_program(program, true, folder + "/subs");
+    const auto refused = [&](const std::string& code) {
+      return std::any_of(outcome.found.begin(), outcome.found.end(), [&](const auto& found) {
+        return found.kind == "unsupported_code" &&
+               found.text.find("error: " + code + " ") != std::string::npos;
+      });
+    };
+    for (const interp::CodeRule* rule :
+         interp::CodeTable(program.options.dialect, program.options.lathe).rules()) {
+      const std::string code = interp::name_of(*rule);
+      const auto found = outcome.codes.find(code);
+      if ((found != outcome.codes.end() && found->second > 0) || refused(code))
+        executed.insert(rule);
+    }
+  }
+  for (const Control& control : other_controls)
+    for (const interp::CodeRule* rule : interp::CodeTable(control.dialect, control.lathe).rules())
+      if (rule->handler && !is_of_the_builder(*rule)) {
+        EXPECT_TRUE(executed.contains(rule))
+            << name_of(*rule) << " of a " << control.name << " has no program";
+      }
+  EXPECT_TRUE(std::any_of(executed.begin(), executed.end(),
+                          [](const auto* rule) { return is_of_the_builder(*rule); }));
+}
+
+TEST(Programs, AreRefusedAtEveryCodeThatIsNotImplemented) {
+  int refused = 0;
+  for (const Control& control : other_controls)
+    for (const interp::CodeRule* rule : interp::CodeTable(control.dialect, control.lathe).rules()) {
+      if (rule->handler) continue;
+      ProgramFile program =
+          read_program_file("refused", "O1\nG0 X1.\n" + name_of(*rule) + "\nM30\n", "T1 P1\n");
+      program.options.dialect = control.dialect;
+      program.options.lathe = control.lathe;
+      const Outcome outcome = run_program(program, true, folder + "/subs");
+      ++refused;
+      ASSERT_EQ(outcome.found.size(), 1u) << name_of(*rule) << " of a " << control.name;
+      EXPECT_EQ(outcome.found[0].kind, "unsupported_code") << outcome.found[0].text;
+      EXPECT_EQ(outcome.found[0].line, 3u);
+    }
+  EXPECT_GT(refused, 100);
+}
+
+/// Codes of a cell of docs/fanuc-codes.md: `G5.1, Haas G15, M10-M18`.
+std::set<std::string> codes_in(const std::string& cell) {
+  static const std::regex code(R"(([GM])(\d+)(?:\.(\d))?(?:-([GM])(\d+)(?:\.(\d))?)?)");
+  std::set<std::string> codes;
+  for (std::sregex_iterator at(cell.begin(), cell.end(), code), end; at != end; ++at) {
+    const std::smatch& m = *at;
+    const auto tenths = [](const std::string& whole, const std::string& part) {
+      return std::stoi(whole) * 10 + (part.empty() ? 0 : std::stoi(part));
+    };
+    const int first = tenths(m[2], m[3]);
+    const int last = m[4].matched ? tenths(m[5], m[6]) : first;
+    const int step = m[3].matched ? 1 : 10;
+    for (int number = first; number <= last; number += step) {
+      std::string name = m[1].str() + std::to_string(number / 10);
+      if (number % 10) name += "." + std::to_string(number % 10);
+      codes.insert(name);
+    }
+  }
+  return codes;
+}
+
+// The page says which codes are accepted without effect and which are refused; so do the rows.
+TEST(Documentation, NamesTheCodesThatAreAcceptedOrRefused) {
+  std::ifstream in(AIRCUT_SOURCE_DIR "/docs/fanuc-codes.md");
+  std::set<std::string> accepted, refused;
+  for (std::string line; std::getline(in, line);) {
+    if (!line.starts_with("| G")) continue;
+    const std::size_t second = line.find('|', 1);
+    const std::string codes = line.substr(0, second), becomes = line.substr(second + 2);
+    if (becomes.starts_with("accepted")) accepted.merge(codes_in(codes));
+    if (becomes.starts_with("refused:")) refused.merge(codes_in(codes));
+  }
+  std::set<std::string> accepts, refuses;
+  for (const Control& control : other_controls)
+    for (const interp::CodeRule* rule : interp::CodeTable(control.dialect, control.lathe).rules()) {
+      if (!rule->handler) refuses.insert(name_of(*rule));
+      if (rule->handler == interp::accepted) accepts.insert(name_of(*rule));
+    }
+  const auto missing = [](const std::set<std::string>& from, const std::set<std::string>& there) {
+    std::vector<std::string> codes;
+    std::set_difference(from.begin(), from.end(), there.begin(), there.end(),
+                        std::back_inserter(codes));
+    return joined(codes, " ");
+  };
+  EXPECT_EQ(missing(accepts, accepted), "nothing") << "not named as accepted";
+  EXPECT_EQ(missing(accepted, accepts), "nothing") << "named as accepted";
+  EXPECT_EQ(missing(refuses, refused), "nothing") << "not named as refused";
+  EXPECT_EQ(missing(refused, refuses), "nothing") << "named as refused";
 }
 
 /// Programs that never end by themselves.

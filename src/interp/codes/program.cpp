@@ -21,12 +21,14 @@ void program_end(const CodeRule& rule, BlockRun& run) {
   }
   run.emit_work_offset();
   run.emit_rotation();
-  if (state.plane != canon::Plane::xy) {
-    state.plane = canon::Plane::xy;
+  const bool lathe = run.session.table.lathe();
+  const canon::Plane plane = lathe ? canon::Plane::zx : canon::Plane::xy;
+  if (state.plane != plane) {
+    state.plane = plane;
     run.emit(canon::SelectPlane{state.plane});
   }
   state.incremental = false;
-  state.feed_mode = canon::FeedMode::per_minute;
+  state.feed_mode = lathe ? canon::FeedMode::per_revolution : canon::FeedMode::per_minute;
   run.emit(canon::SetFeedMode{state.feed_mode});
   state.feed = 0;
   run.emit(canon::SetFeedRate{});
