@@ -198,7 +198,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_run->add_flag("--force", run.force, "write into a folder that exists");
   c_run
       ->add_option("--log", run.log,
-                   "joint log file, or null for none (default: joints.csv in the folder)")
+                   "joint log, .csv or .h5, or null for none (default: joints.csv in the folder)")
       ->type_name("FILE");
   c_run->add_option("--period", run.period, "servo and log period, s (default 0.001)")
       ->check(CLI::Range(1e-5, 1.0).description(""))

@@ -113,6 +113,7 @@ struct LogArguments {
   std::string file, other;
   ProgramArguments program;  ///< check: may be empty
   std::string output;
+  bool header = false;  ///< a table with the header lines
   bool force = false;
   std::vector<std::string> columns;
   unsigned long long every = 1;

@@ -25,7 +25,7 @@ CLI::App* add_log(CLI::App& app, LogArguments& a) {
   log->require_subcommand(1);
   const auto add = [&](const char* name, const char* text, Action action) {
     CLI::App* c = log->add_subcommand(name, text);
-    c->add_option("LOG", a.file, "joints.csv of aircut run")->required();
+    c->add_option("LOG", a.file, "joints.csv or .h5 of aircut run")->required();
     c->add_option("--color", a.color_word, "colours in messages")
         ->check(CLI::IsMember({"auto", "always", "never"}).description(""))
         ->type_name("auto|always|never");
@@ -53,14 +53,16 @@ CLI::App* add_log(CLI::App& app, LogArguments& a) {
                    "less is no difference, mm or degrees (default 1e-6)")
       ->check(CLI::NonNegativeNumber)
       ->type_name("MM");
-  CLI::App* table = add("export", "a plain table: .csv, .json, or .npy for numpy", Action::table);
-  add_out(table, "file; its ending says the form: .csv .json .npy");
+  CLI::App* table =
+      add("export", "a table: .csv, .json, .npy for numpy, or the log as .h5", Action::table);
+  add_out(table, "file; its ending says the form: .csv .json .npy .h5");
   table->add_option("--columns", a.columns, "which columns, e.g. t,line,q0,q1 (default all)")
       ->delimiter(',')
       ->type_name("LIST");
   table->add_option("--every", a.every, "every N-th row")
       ->check(CLI::Range(1, 1000000000).description(""))
       ->type_name("N");
+  table->add_flag("--header", a.header, ".csv with the header lines: a joint log again");
   add_span(table, a);
   CLI::App* plot =
       add("plot", "a picture: joints, feed, shares of the limits over time", Action::plot);

@@ -173,16 +173,32 @@ int table(const LogArguments& a, const SourceText& text) {
     options.table = logbook::Table::json;
   else if (ending == ".npy")
     options.table = logbook::Table::npy;
-  else
+  else if (ending != ".h5")
     return failed(a, make_error("usage", "the ending of '" + printable(a.output) +
-                                             "' says no form; take .csv, .json or .npy"));
+                                             "' says no form; take .csv, .json, .npy or .h5"));
+  const bool whole = ending == ".h5" || a.header;
+  if (whole && (!a.columns.empty() || a.every != 1 || a.from > 0 || a.to < 1e300))
+    return failed(a, make_error("usage",
+                                "a joint log has all columns and rows: leave --columns, --every, "
+                                "--from and --to away, or write a plain table"));
+  if (a.header && ending != ".csv" && ending != ".h5")
+    return failed(a, make_error("usage", "--header is for .csv"));
   options.columns = a.columns;
   options.every = a.every;
   options.from = a.from;
   options.to = a.to;
   if (const int refused = refuse_existing(a)) return refused;
+  if (ending == ".h5") {
+    const auto done = logbook::write_hdf5(text, a.output);
+    return done ? code(ExitCode::pass) : failed(a, done.error());
+  }
   auto file = OutputFile::create(a.output);
   if (!file) return failed(a, file.error());
+  if (a.header) {
+    file->write(text.content());
+    const auto done = file->commit();
+    return done ? code(ExitCode::pass) : failed(a, done.error());
+  }
   auto done = logbook::export_table(text, options, [&](std::string_view s) { file->write(s); });
   if (done) done = file->commit();
   return done ? code(ExitCode::pass) : failed(a, done.error());
@@ -200,7 +216,7 @@ int plot(const LogArguments& a, const SourceText& text) {
 
 int log_command(const LogArguments& a) {
   SourceMap sources;
-  const auto text = sources.open(a.file);
+  const auto text = logbook::open_log(sources, a.file);
   if (!text) return failed(a, text.error());
   switch (a.action) {
     case LogArguments::Action::check:
@@ -214,7 +230,7 @@ int log_command(const LogArguments& a) {
     case LogArguments::Action::diff:
       break;
   }
-  const auto other = sources.open(a.other);
+  const auto other = logbook::open_log(sources, a.other);
   return other ? diff(a, **text, **other) : failed(a, other.error());
 }
 

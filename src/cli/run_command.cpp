@@ -13,6 +13,7 @@
 #include "cli/job.h"
 #include "cli/print_report.h"
 #include "log/log.h"
+#include "logbook/logbook.h"
 #include "semantics/semantics.h"
 
 namespace aircut::cli {
@@ -28,6 +29,29 @@ extern "C" void on_signal(int number) {
   if (stop_signal != 0) _exit(128 + number);
   stop_signal = number;
 }
+
+// A joint log as HDF5 is made of the text, when that is complete. The text is removed in any case.
+class Hdf5Log {
+ public:
+  explicit Hdf5Log(std::string path)
+      : path_(std::move(path)), text_(path_ + "." + std::to_string(::getpid()) + ".csv") {}
+  ~Hdf5Log() {
+    std::error_code error;
+    fs::remove(text_, error);
+  }
+  Hdf5Log(const Hdf5Log&) = delete;
+  Hdf5Log& operator=(const Hdf5Log&) = delete;
+  const std::string& text() const { return text_; }
+  Expected<void> finish() const {
+    SourceMap sources;
+    const auto text = sources.open(text_);
+    if (!text) return unexpected(text.error());
+    return logbook::write_hdf5(**text, path_);
+  }
+
+ private:
+  std::string path_, text_;
+};
 
 // One line on stderr, only for work over a second and only on a terminal.
 class Progress {
@@ -127,6 +151,9 @@ int run_command(const RunArguments& a) {
       !a.log.empty() && a.log != "null" && !a.force && fs::exists(a.log, error))
     return fail(make_error("output_failed",
                            "'" + printable(a.log) + "' exists; name another file, or use --force"));
+  const bool as_hdf5 = fs::path(a.log).extension() == ".h5";
+  if (as_hdf5)
+    if (auto ready = logbook::hdf5_ready(); !ready) return fail(ready.error());
   Job job;
   auto rules = rules_of(a.output, job.sources);
   if (!rules) return fail(rules.error());
@@ -158,7 +185,9 @@ int run_command(const RunArguments& a) {
                             .near = a.near});
 
   std::unique_ptr<log::CsvJointLog> log;
-  std::string log_path = a.log;
+  std::optional<Hdf5Log> hdf5;
+  if (as_hdf5) hdf5.emplace(a.log);
+  std::string log_path = hdf5 ? hdf5->text() : a.log;
   if (log_path.empty() && !a.folder.empty()) log_path = a.folder + "/joints.csv";
   if (!log_path.empty() && log_path != "null") {
     std::string machine_hash;
@@ -255,6 +284,8 @@ int run_command(const RunArguments& a) {
 
   if (log) {
     if (auto written = log->result(); !written) return fail(written.error());
+    if (hdf5)
+      if (auto written = hdf5->finish(); !written) return fail(written.error());
     if (a.log.empty()) report.outputs.push_back("joints.csv");
   }
   if (const auto part = a.folder.empty() ? std::nullopt : simulator.part()) {

@@ -25,6 +25,7 @@ struct Joint {
 
 struct Header {
   std::map<std::string, std::string> keys;
+  std::vector<std::string> order;  ///< of the keys
   std::vector<Joint> joints;
   std::vector<std::string> columns;
   double period = 0;    ///< s
@@ -85,6 +86,15 @@ class Reader {
   std::map<std::string, std::pair<std::uint64_t, std::uint64_t>> places_;  ///< of keys: byte, line
   Header header_;
 };
+
+/// Opens a log, text or HDF5 (docs/joint-log.md). One of HDF5 becomes its text; that is done in a
+/// child process, because what libhdf5 does with a damaged file is not ours to prove. Only for
+/// processes with one thread. Error kind `input`.
+Expected<const SourceText*> open_log(SourceMap& sources, const std::string& path);
+/// Whether this computer has libhdf5; the error says what to install.
+Expected<void> hdf5_ready();
+/// The same log as HDF5: complete under its name, or not there.
+Expected<void> write_hdf5(const SourceText& log, const std::string& path);
 
 /// A piece of the programmed path: straight, a helix, or a chain of points.
 struct IdealPiece {

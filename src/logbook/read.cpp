@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "logbook/logbook.h"
+#include "logbook/columns.h"
 
 namespace aircut::logbook {
 namespace {
@@ -14,7 +14,15 @@ constexpr std::size_t longest_line = 100'000;
 constexpr std::size_t most_joints = 64;
 constexpr const char* hint = "; a joint log is what `aircut run --log` writes";
 
-std::vector<std::string> split(std::string_view text) {
+// A whole plain number as the writer writes it.
+bool read_number(std::string_view text, double& out) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(out);
+}
+
+}  // namespace
+
+std::vector<std::string> split_list(std::string_view text) {
   std::vector<std::string> out;
   for (std::size_t begin = 0;;) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
@@ -24,23 +32,36 @@ std::vector<std::string> split(std::string_view text) {
   }
 }
 
-// A whole plain number as the writer writes it.
-bool read_number(std::string_view text, double& out) {
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(out);
-}
-
-std::vector<std::string> columns_for(std::size_t joints) {
-  std::vector<std::string> out = {"t", "line", "block", "motion", "feed_cmd", "feed_act", "s"};
-  for (const char* letter : {"q", "v", "a"})
-    for (std::size_t j = 0; j < joints; ++j) out.push_back(letter + std::to_string(j));
-  for (const char* name : {"x", "y", "z", "a", "b", "c", "u", "v", "w", "tool", "spindle_rpm",
-                           "spindle_rev", "sync_error", "flags"})
-    out.emplace_back(name);
+std::vector<Column> columns_of(const std::vector<Joint>& joints) {
+  std::vector<Column> out = {{"t", "s", "", false},
+                             {"line", "", "", true},
+                             {"block", "", "", true},
+                             {"motion", "", "", true},
+                             {"feed_cmd", "mm/s or deg/s", "", false},
+                             {"feed_act", "mm/s or deg/s", "", false},
+                             {"s", "mm or deg", "", false}};
+  for (const auto& [letter, per] : {std::pair("q", ""), {"v", "/s"}, {"a", "/s^2"}})
+    for (std::size_t j = 0; j < joints.size(); ++j)
+      out.push_back({letter + std::to_string(j), joints[j].unit + per, "joint", false});
+  for (const char* axis : {"x", "y", "z", "a", "b", "c", "u", "v", "w"})
+    out.push_back({axis, *axis >= 'a' && *axis <= 'c' ? "deg" : "mm", "machine", false});
+  out.push_back({"tool", "", "", true});
+  out.push_back({"spindle_rpm", "1/min", "", false});
+  out.push_back({"spindle_rev", "1", "", false});
+  out.push_back({"sync_error", "mm", "", false});
+  out.push_back({"flags", "", "", true});
   return out;
 }
 
-}  // namespace
+std::vector<Joint> joints_of(std::string_view list) {
+  std::vector<Joint> out;
+  for (const std::string& item : split_list(list)) {
+    const std::size_t colon = item.rfind(':');
+    const std::string unit = colon == std::string::npos ? "" : item.substr(colon + 1);
+    out.push_back({item.substr(0, colon), unit == "mm" || unit == "deg" ? unit : "", 0, 0, 0});
+  }
+  return out;
+}
 
 Diagnostic Reader::wrong(std::size_t begin, std::size_t length, const std::string& message) const {
   SourceSpan span;
@@ -95,6 +116,7 @@ Expected<void> Reader::read_header() {
                 std::string("the first line must be `# format=aircut-joints-1`") + hint));
     if (!header_.keys.emplace(key, line_.substr(equals + 1)).second)
       return unexpected(wrong(2, key.size(), "the key '" + printable(key) + "' is there twice"));
+    header_.order.push_back(key);
     places_[key] = {begin_, line_number_};
     line_ = {};
   }
@@ -107,9 +129,10 @@ Expected<void> Reader::read_header() {
   if (line_.empty())
     return unexpected(wrong(0, 0, "the line with the names of the columns is missing"));
   if (auto done = read_keys(); !done) return done;
-  header_.columns = columns_for(header_.joints.size());
+  for (Column& column : columns_of(header_.joints))
+    header_.columns.push_back(std::move(column.name));
   std::size_t column = 0, begin = 0;
-  for (const std::string& name : split(line_)) {
+  for (const std::string& name : split_list(line_)) {
     if (column >= header_.columns.size() || name != header_.columns[column])
       return unexpected(wrong(begin, name.size(),
                               column < header_.columns.size()
@@ -139,7 +162,7 @@ Expected<std::vector<double>> Reader::limits_of(const char* key) const {
   const auto found = header_.keys.find(key);
   if (found == header_.keys.end()) return unexpected(wrong_key(key, ""));
   std::vector<double> out;
-  for (const std::string& item : split(found->second)) {
+  for (const std::string& item : split_list(found->second)) {
     double value = std::numeric_limits<double>::infinity();
     if (item != "inf" && (!read_number(item, value) || !(value > 0)))
       return unexpected(wrong_key(key, std::string("'") + key +
@@ -157,14 +180,11 @@ Expected<std::vector<double>> Reader::limits_of(const char* key) const {
 Expected<void> Reader::read_keys() {
   const auto joints = header_.keys.find("joints");
   if (joints == header_.keys.end()) return unexpected(wrong_key("joints", ""));
-  for (const std::string& item : split(joints->second)) {
-    const std::size_t colon = item.rfind(':');
-    const std::string unit = colon == std::string::npos ? "" : item.substr(colon + 1);
-    if (unit != "mm" && unit != "deg")
-      return unexpected(wrong_key(
-          "joints", "'joints' must be `name:mm` or `name:deg`, not '" + printable(item) + "'"));
-    header_.joints.push_back({item.substr(0, colon), unit, 0, 0, 0});
-  }
+  header_.joints = joints_of(joints->second);
+  for (std::size_t j = 0; j < header_.joints.size(); ++j)
+    if (header_.joints[j].unit.empty())
+      return unexpected(wrong_key("joints", "'joints' must be `name:mm` or `name:deg`, not '" +
+                                                printable(split_list(joints->second)[j]) + "'"));
   if (header_.joints.size() > most_joints)
     return unexpected(wrong_key("joints", "there are more than 64 joints"));
   const auto v = limits_of("limits_v"), a = limits_of("limits_a"), j = limits_of("limits_j");

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "render/gl_context.h"
-#include "render/shared_library.h"
+#include "base/shared_library.h"
 
 namespace aircut::render {
 namespace {

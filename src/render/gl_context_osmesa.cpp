@@ -6,7 +6,7 @@
 #include <array>
 
 #include "render/gl_context.h"
-#include "render/shared_library.h"
+#include "base/shared_library.h"
 
 namespace aircut::render {
 namespace {

@@ -84,6 +84,32 @@ TEST_F(LogCommand, ExportsAndDraws) {
   EXPECT_TRUE(info.says("cycle time"));
 }
 
+TEST_F(LogCommand, WritesAndReadsHdf5) {
+  run_part();
+  const std::string run = "run " + path("part.ngc") + " -m mill3 --check syntax --log ";
+  aircut(run + path("joints.h5"));
+  ASSERT_TRUE(std::filesystem::exists(path("joints.h5")));
+  EXPECT_EQ(text_of(path("joints.h5")).substr(1, 3), "HDF");
+  for (const auto& entry : std::filesystem::directory_iterator(path("")))
+    EXPECT_EQ(entry.path().string().find("joints.h5."), std::string::npos) << entry.path();
+  // Back to text: the same bytes as a log that was written as text.
+  EXPECT_EQ(
+      aircut("log export " + path("joints.h5") + " -o " + path("back.csv") + " --header").code, 0);
+  EXPECT_EQ(text_of(path("back.csv")), text_of(log()));
+  EXPECT_EQ(aircut("log export " + log() + " -o " + path("other.h5")).code, 0);
+  EXPECT_EQ(text_of(path("other.h5")), text_of(path("joints.h5")));
+  EXPECT_EQ(aircut("log diff " + log() + " " + path("other.h5")).code, 0);
+  EXPECT_EQ(
+      aircut("log check " + path("other.h5") + " --program " + path("part.ngc") + " -m mill3").code,
+      0);
+  EXPECT_EQ(aircut("log plot " + path("other.h5") + " -o " + path("p.png")).code, 0);
+  EXPECT_EQ(aircut("log export " + log() + " -o " + path("x.h5") + " --every 2").code, 2);
+  put("cut.h5", text_of(path("other.h5")).substr(0, 3000));
+  const Outcome cut = aircut("log info " + path("cut.h5"));
+  EXPECT_EQ(cut.code, 2);
+  EXPECT_TRUE(cut.says("cut.h5' is no joint log")) << cut.err;
+}
+
 struct Diff : Program {
   Outcome diff(const std::string& a, const std::string& b) {
     put("a.ngc", a);

@@ -5,9 +5,9 @@
 
 #include <string>
 
-#include "base/base.h"
+#include "base/diagnostic.h"
 
-namespace aircut::render {
+namespace aircut {
 
 /// Opens a library for good. Error kind `output_failed`, with the remedy.
 inline Expected<void*> open_library(const std::string& name, const std::string& remedy) {
@@ -25,4 +25,4 @@ bool find_function(void* library, const char* name, F& function) {
   return function != nullptr;
 }
 
-}  // namespace aircut::render
+}  // namespace aircut
