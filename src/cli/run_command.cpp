@@ -14,6 +14,7 @@
 #include "cli/print_report.h"
 #include "log/log.h"
 #include "logbook/logbook.h"
+#include "page/page.h"
 #include "semantics/semantics.h"
 
 namespace aircut::cli {
@@ -102,6 +103,7 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
     fs::remove(folder + "/joints.csv", error);
     fs::remove(folder + "/sheet.png", error);
     fs::remove(folder + "/part.stl", error);
+    fs::remove(folder + "/report.html", error);
     if (fs::is_directory(folder + "/frames", error))
       for (const auto& entry : fs::directory_iterator(folder + "/frames", error))
         if (entry.path().extension() == ".png") fs::remove(entry.path(), error);
@@ -181,7 +183,7 @@ int run_command(const RunArguments& a) {
                            {.limits = checks.limits,
                             .collision = checks.collision,
                             .cut = checks.cut,
-                            .keep_cuts = !a.folder.empty() && frames->spec.any(),
+                            .keep_cuts = !a.folder.empty(),
                             .near = a.near});
 
   std::unique_ptr<log::CsvJointLog> log;
@@ -207,6 +209,12 @@ int run_command(const RunArguments& a) {
   if (!a.folder.empty() && frames->spec.any()) {
     pictures = std::make_unique<report::FrameMaker>(job.machine, job.tools, *frames);
     simulator.add_observer(*pictures);
+  }
+
+  std::unique_ptr<page::Replay> replay;
+  if (!a.folder.empty()) {
+    replay = std::make_unique<page::Replay>(job.machine, job.tools, **program);
+    simulator.add_observer(*replay);
   }
 
   std::signal(SIGINT, on_signal);
@@ -300,6 +308,15 @@ int run_command(const RunArguments& a) {
     const auto written = pictures->write(a.folder, report.findings);
     if (!written) return fail(written.error());
     report.outputs.insert(report.outputs.end(), written->begin(), written->end());
+  }
+  if (replay && stop_signal == 0) {
+    const auto history = simulator.stock_history(page::stock_steps);
+    if (!history) return fail(history.error());
+    const auto page = page::page_html({report, *replay, a.folder, history->get()});
+    if (!page) return fail(page.error());
+    if (auto written = write_file(a.folder + "/report.html", *page); !written)
+      return fail(written.error());
+    report.outputs.push_back("report.html");
   }
   if (!a.folder.empty())
     if (auto written = write_file(a.folder + "/result.json", report::to_json(report)); !written)

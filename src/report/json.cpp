@@ -4,7 +4,7 @@
 
 namespace aircut::report {
 
-std::string to_json(const RunReport& report) {
+Json document(const RunReport& report) {
   Json findings = Json::array();
   each_finding(report, [&](Json row) { findings.push_back(std::move(row)); });
 
@@ -16,7 +16,9 @@ std::string to_json(const RunReport& report) {
   out["findings"] = std::move(findings);
   out["accepted"] = accepted_items(report);
   out.update(tail_items(report));
-  return json_text(out, 2);
+  return out;
 }
+
+std::string to_json(const RunReport& report) { return json_text(document(report), 2); }
 
 }  // namespace aircut::report

@@ -22,6 +22,9 @@ Json accepted_items(const RunReport& report);
 Json tail_items(
     const RunReport& report);  ///< waivers, programs, timing, extents, collision, outputs
 
+/// All of result.json.
+Json document(const RunReport& report);
+
 /// The text, ending with a line end. It is safe inside a page's <script> too: `<` is escaped.
 /// `indent` -1: on one line.
 std::string json_text(const Json& json, int indent);

@@ -260,7 +260,9 @@ class Simulator {
   /// known.
   std::optional<TriangleMesh> part() const;
   /// Null when there was no stock or the cuts were not kept. Error kind `output_failed`.
-  Expected<std::unique_ptr<StockHistory>> stock_history();
+  /// It is cut on a lattice of at most `steps` to its longest side; the default is finer than a
+  /// picture's pixels.
+  Expected<std::unique_ptr<StockHistory>> stock_history(double steps = 300);
 
  private:
   void count(const plan::Segment& segment);

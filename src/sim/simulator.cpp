@@ -24,9 +24,9 @@ std::optional<TriangleMesh> Simulator::part() const {
   return cutting_->stock()->mesh();
 }
 
-Expected<std::unique_ptr<StockHistory>> Simulator::stock_history() {
+Expected<std::unique_ptr<StockHistory>> Simulator::stock_history(double steps) {
   if (!cutting_ || !cutting_->stock() || !cutting_->tape()) return nullptr;
-  return cutting_->tape()->play(*scene_.machine().stock());
+  return cutting_->tape()->play(*scene_.machine().stock(), steps);
 }
 
 void Simulator::not_checked(const std::string& what) { summary_.unchecked.push_back(what); }

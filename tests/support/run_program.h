@@ -40,9 +40,11 @@ struct RunResult {
 inline RunResult run_program(const std::string& text,
                              std::shared_ptr<const machine::Machine> machine,
                              const tool::ToolTable& tools, SourceMap& sources,
-                             const sim::CheckOptions& checks = {}, double max_time = 360'000) {
+                             const sim::CheckOptions& checks = {}, double max_time = 360'000,
+                             sim::Observer* observer = nullptr,
+                             const SourceText* given = nullptr) {
   RunResult out;
-  const SourceText& program = sources.add("test.ngc", text);
+  const SourceText& program = given ? *given : sources.add("test.ngc", text);
   interp::Options options;
   options.axes = machine->kinematics().axes();
   const machine::JointVector start = machine->home();
@@ -52,6 +54,7 @@ inline RunResult run_program(const std::string& text,
       out.diagnostics);
   plan::Planner planner(*machine, start, {});
   sim::Simulator simulator(machine, tools, start, checks);
+  if (observer) simulator.add_observer(*observer);
   sim::RunOptions run_options;
   run_options.max_time = max_time;
   auto result = sim::run(interpreter, out.diagnostics, planner, simulator, run_options);

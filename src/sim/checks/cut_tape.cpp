@@ -124,10 +124,9 @@ Expected<void> CutTape::add(const stock::Piece& piece, double t) {
   return unexpected(disk_error("can't write a temporary file"));
 }
 
-Expected<std::unique_ptr<StockHistory>> CutTape::play(const machine::RawStock& raw) {
+Expected<std::unique_ptr<StockHistory>> CutTape::play(const machine::RawStock& raw, double steps) {
   if (std::fflush(file_.get()) != 0 || std::fseek(file_.get(), 0, SEEK_SET) != 0)
     return unexpected(disk_error("can't read a temporary file"));
-  constexpr double steps = 300;  // of the longest side: finer than a picture's pixels
   const double pitch = std::max(raw.pitch.value_or(default_pitch(raw)), longest_side(raw) / steps);
   auto stock = make_stock(raw, pitch);
   if (!stock) return unexpected(stock.error());

@@ -27,7 +27,7 @@ class CutTape {
   /// `cutter` is a pointer that keep() gave. Error kind `output_failed`.
   Expected<void> add(const stock::Piece& piece, double t);
   /// Plays the tape from its beginning, on a lattice that is fine enough for pictures.
-  Expected<std::unique_ptr<StockHistory>> play(const machine::RawStock& raw);
+  Expected<std::unique_ptr<StockHistory>> play(const machine::RawStock& raw, double steps);
 
  private:
   std::shared_ptr<std::FILE> file_;
