@@ -1,5 +1,6 @@
 #include "base/hash.h"
 
+#include <nettle/base64.h>
 #include <nettle/sha2.h>
 
 #include <array>
@@ -43,6 +44,12 @@ std::string sha256(const SourceText& text) {
     reading.at(at, at + piece.size());
   }
   return digest_of(context);
+}
+
+std::string base64(std::string_view bytes) {
+  std::string out(BASE64_ENCODE_RAW_LENGTH(bytes.size()), '\0');
+  base64_encode_raw(out.data(), bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+  return out;
 }
 
 }  // namespace aircut

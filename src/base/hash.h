@@ -12,4 +12,7 @@ std::string sha256(std::string_view bytes);
 /// The same of a text, whose memory is let go of on the way.
 std::string sha256(const SourceText& text);
 
+/// Base64 with padding (RFC 4648).
+std::string base64(std::string_view bytes);
+
 }  // namespace aircut

@@ -1,6 +1,5 @@
 #include "page/pack.h"
 
-#include <nettle/base64.h>
 #include <zlib.h>
 
 #include <Eigen/Cholesky>
@@ -38,12 +37,6 @@ std::string deflated(std::string_view bytes) {
       compress2(reinterpret_cast<Bytef*>(out.data()), &size,
                 reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 7);
   out.resize(done == Z_OK ? size : 0);  // only memory can fail it, and that ends the program anyway
-  return out;
-}
-
-std::string base64(std::string_view bytes) {
-  std::string out(BASE64_ENCODE_RAW_LENGTH(bytes.size()), '\0');
-  base64_encode_raw(out.data(), bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
   return out;
 }
 

@@ -71,5 +71,12 @@ TEST(Excerpt, NamesTheCallsThatLedThere) {
   EXPECT_NE(excerpt(span, "", {}).find("(called from main.ngc:1, o<a> call)"), std::string::npos);
 }
 
+TEST(Hash, Base64IsThatOfTheStandard) {  // RFC 4648, section 10
+  EXPECT_EQ(base64(""), "");
+  EXPECT_EQ(base64("f"), "Zg==");
+  EXPECT_EQ(base64("fo"), "Zm8=");
+  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+}
+
 }  // namespace
 }  // namespace aircut

@@ -55,13 +55,6 @@ TEST(Pack, DeflatedBytesAreZlibs) {
   EXPECT_EQ(back, text);
 }
 
-TEST(Pack, Base64IsThatOfTheStandard) {  // RFC 4648, section 10
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-}
-
 // A box whose faces are n x n squares.
 TriangleMesh gridded_box(double size, int n) {
   TriangleMesh mesh;
