@@ -200,6 +200,15 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       ->add_option("--log", run.log,
                    "joint log, .csv or .h5, or null for none (default: joints.csv in the folder)")
       ->type_name("FILE");
+  c_run
+      ->add_option("--part", run.part,
+                   "what is left of the stock: .stl or .3mf, or null for none (default: part.stl "
+                   "and part.3mf in the folder)")
+      ->type_name("FILE");
+  c_run
+      ->add_option("--save-stock", run.save_stock,
+                   "the stock for the next job, whose set-up says [stock] file = \"FILE\"")
+      ->type_name("FILE");
   c_run->add_option("--period", run.period, "servo and log period, s (default 0.001)")
       ->check(CLI::Range(1e-5, 1.0).description(""))
       ->type_name("S");

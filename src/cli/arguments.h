@@ -46,7 +46,9 @@ struct RunArguments {
   OutputArguments output;
   std::string folder;  ///< -o
   bool force = false;
-  std::string log;  ///< --log FILE or `null`; empty: joints.csv in the folder
+  std::string log;   ///< --log FILE or `null`; empty: joints.csv in the folder
+  std::string part;  ///< --part FILE (.stl, .3mf) or `null`; empty: part.stl and .3mf in the folder
+  std::string save_stock;  ///< --save-stock FILE
   double period = 0.001;
   int log_every = 1;
   double near = 2;

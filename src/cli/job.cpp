@@ -9,6 +9,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/print_report.h"
+#include "stock/stock.h"
 
 namespace aircut::cli {
 
@@ -40,6 +41,21 @@ std::string hash_of_package(const std::string& folder) {
     all += file + " " + (text ? sha256((*text)->content()) : "unreadable") + "\n";
   }
   return sha256(all);
+}
+
+// The surface of what an earlier job left, for the stock of a setup.
+bool load_stock(machine::SetupStock& wanted, Job& job) {
+  if (wanted.raw.shape != machine::StockShape::saved) return true;
+  const std::string_view bytes = wanted.raw.saved->content();
+  const auto stock = stock::Stock::load(bytes, printable(wanted.mesh_path));
+  if (!stock) {
+    job.diagnostics.error("setup_invalid", wanted.mesh_span, stock.error().message);
+    return false;
+  }
+  job.inputs.push_back({"stock", wanted.raw.saved->name(), sha256(bytes)});
+  wanted.raw.pitch = stock->pitch();
+  wanted.raw.mesh = std::make_shared<TriangleMesh>(stock->mesh());
+  return true;
 }
 
 // Sets the work offsets of a setup as the parameters that a control keeps them in.
@@ -103,8 +119,9 @@ bool open_inputs(Job& job, const ProgramArguments& arguments, std::optional<doub
     job.inputs.push_back({"parameters", parameters, sha256((*text)->content())});
   }
   if (!arguments.setup.empty() && job.machine) {
-    const auto setup = machine::read_setup(arguments.setup, *job.machine, job.sources, out);
+    auto setup = machine::read_setup(arguments.setup, *job.machine, job.sources, out);
     if (!setup) return fail(setup.error());
+    if (setup->stock && !load_stock(*setup->stock, job)) return false;
     const auto placed = machine::apply_setup(*job.machine, *setup, job.sources, out);
     if (!placed) return fail(placed.error());
     job.machine = *placed;

@@ -102,8 +102,9 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
     fs::remove(folder + "/result.json", error);
     fs::remove(folder + "/joints.csv", error);
     fs::remove(folder + "/sheet.png", error);
-    fs::remove(folder + "/part.stl", error);
-    fs::remove(folder + "/report.html", error);
+    for (const char* file :
+         {"report.html", "part.stl", "part.3mf", "deviation.ply", "deviation.png"})
+      fs::remove(folder + "/" + file, error);
     if (fs::is_directory(folder + "/frames", error))
       for (const auto& entry : fs::directory_iterator(folder + "/frames", error))
         if (entry.path().extension() == ".png") fs::remove(entry.path(), error);
@@ -114,8 +115,77 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
   return {};
 }
 
+// A file of its own: `--log`, `--part`, `--save-stock`.
+Expected<void> may_write(const std::string& path, bool force) {
+  std::error_code error;
+  if (path.empty() || path == "null" || force || !fs::exists(path, error)) return {};
+  return unexpected(make_error(
+      "output_failed", "'" + printable(path) + "' exists; name another file, or use --force"));
+}
+
+bool is_3mf(const std::string& path) { return fs::path(path).extension() == ".3mf"; }
+
+Expected<void> check_outputs(const RunArguments& a) {
+  if (a.log == "-")
+    return unexpected(
+        make_error("usage", "--log - is not supported: name a file, or null for none"));
+  if (!a.part.empty() && a.part != "null" && !is_3mf(a.part) &&
+      fs::path(a.part).extension() != ".stl")
+    return unexpected(
+        make_error("usage", "--part " + printable(a.part) + ": the name must end in .stl or .3mf"));
+  for (const std::string* path : {&a.log, &a.part, &a.save_stock})
+    if (auto ok = may_write(*path, a.force); !ok) return ok;
+  return {};
+}
+
 bool wants_frames(const RunArguments& a) {
   return !(a.frames.size() == 1 && a.frames[0] == "none");
+}
+
+// What is left of the stock: as a mesh, for the next job, and compared with the design.
+Expected<void> write_part(const RunArguments& a, const sim::Simulator& simulator,
+                          report::RunReport& report) {
+  if (!a.save_stock.empty()) {
+    const auto saved = simulator.saved_stock();
+    if (!saved)
+      report.summary.unchecked.push_back(
+          "the stock for the next job (--save-stock): it is not "
+          "known what is left of it");
+    else if (auto written = write_file(a.save_stock, *saved); !written)
+      return written;
+  }
+  const bool in_folder = !a.folder.empty();
+  if (a.part == "null" || (!in_folder && a.part.empty())) return {};
+  const auto mesh = simulator.part();
+  if (!mesh) return {};
+  const auto write = [&](const std::string& path, const std::string& bytes) -> Expected<void> {
+    return write_file(path, bytes);
+  };
+  if (!a.part.empty()) {
+    if (auto ok = write(a.part, is_3mf(a.part) ? report::three_mf_bytes(*mesh) : stl_bytes(*mesh));
+        !ok)
+      return ok;
+  }
+  if (!in_folder) return {};
+  const auto listed = [&](const std::string& name, const std::string& bytes) {
+    report.outputs.push_back(name);
+    return write(a.folder + "/" + name, bytes);
+  };
+  if (a.part.empty()) {
+    if (auto ok = listed("part.stl", stl_bytes(*mesh)); !ok) return ok;
+    if (auto ok = listed("part.3mf", report::three_mf_bytes(*mesh)); !ok) return ok;
+  }
+  if (!report.summary.part) return {};
+  const std::vector<double> outside = simulator.deviation(*mesh);
+  const report::DeviationScale scale(*report.summary.part);
+  if (auto ok = listed("deviation.ply", report::ply_bytes(*mesh, outside, scale.colors(outside)));
+      !ok)
+    return ok;
+  if (!wants_frames(a)) return {};
+  const auto picture =
+      report::deviation_picture(*mesh, outside, scale, {.width = a.width, .height = a.height});
+  if (!picture) return unexpected(picture.error());
+  return listed("deviation.png", render::png_bytes(*picture));
 }
 
 Expected<report::FrameOptions> frame_options(const RunArguments& a) {
@@ -147,12 +217,7 @@ int run_command(const RunArguments& a) {
   if (!frames) return fail(frames.error());
   if (a.folder.empty() && !a.frames.empty() && wants_frames(a))
     return fail(make_error("usage", "--frames needs -o DIR to write into"));
-  if (a.log == "-")
-    return fail(make_error("usage", "--log - is not supported: name a file, or null for none"));
-  if (std::error_code error;
-      !a.log.empty() && a.log != "null" && !a.force && fs::exists(a.log, error))
-    return fail(make_error("output_failed",
-                           "'" + printable(a.log) + "' exists; name another file, or use --force"));
+  if (const auto ok = check_outputs(a); !ok) return fail(ok.error());
   const bool as_hdf5 = fs::path(a.log).extension() == ".h5";
   if (as_hdf5)
     if (auto ready = logbook::hdf5_ready(); !ready) return fail(ready.error());
@@ -296,11 +361,7 @@ int run_command(const RunArguments& a) {
       if (auto written = hdf5->finish(); !written) return fail(written.error());
     if (a.log.empty()) report.outputs.push_back("joints.csv");
   }
-  if (const auto part = a.folder.empty() ? std::nullopt : simulator.part()) {
-    if (auto written = write_file(a.folder + "/part.stl", stl_bytes(*part)); !written)
-      return fail(written.error());
-    report.outputs.push_back("part.stl");
-  }
+  if (auto written = write_part(a, simulator, report); !written) return fail(written.error());
   if (pictures && stop_signal == 0) {
     auto history = simulator.stock_history();
     if (!history) return fail(history.error());

@@ -197,6 +197,11 @@ bool Table::holds_tables(const std::string& key) const {
   return array && !array->empty() && array->get(0)->is_table();
 }
 
+bool Table::holds_table(const std::string& key) const {
+  const toml::node* value = node_->table->get(key);
+  return value && value->is_table();
+}
+
 void Table::know(const std::string& key) { node_->known.insert(key); }
 
 void Table::error(const std::string& key, const std::string& message) {

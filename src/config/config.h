@@ -51,6 +51,8 @@ class Table {
   std::vector<std::string> keys();
   /// Is the value an array whose first element is a table? (For keys that take either form.)
   bool holds_tables(const std::string& key) const;
+  /// Is the value a table?
+  bool holds_table(const std::string& key) const;
   /// Span of the element `item` of an array; of the value when there is no such element.
   SourceSpan item_span(const std::string& key, std::size_t item) const;
 

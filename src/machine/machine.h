@@ -230,19 +230,32 @@ struct Fixture {
   std::vector<Body> bodies;   ///< X_LB: seen from the fixture's own origin
 };
 
-enum class StockShape : unsigned char { box, cylinder, mesh };
+enum class StockShape : unsigned char { box, cylinder, mesh, saved };
 
 /// The raw piece of a job. Its frame S: a box stands on z = 0, its middle at the origin; a cylinder
-/// or tube stands on z = 0 about the Z axis; a mesh is as in its file.
+/// or tube stands on z = 0 about the Z axis; a mesh, or what an earlier job left, is as in its
+/// file.
 struct RawStock {
   StockShape shape = StockShape::box;
   Vec3 size = Vec3::Zero();                   ///< of a box, mm
   double diameter = 0, bore = 0, height = 0;  ///< of a cylinder, mm; bore > 0: a tube
   std::shared_ptr<const TriangleMesh> mesh;   ///< its closed surface in S, for every shape
+  const SourceText* saved = nullptr;          ///< what an earlier job left; of the SourceMap
   LinkId link = bed_link;                     ///< the link that carries it
   Pose X_LS = Pose::Identity();               ///< S seen from that link
   std::optional<double> pitch;                ///< of the lattice that it is cut on, mm
   Color color{207, 178, 122};
+  SourceSpan span;
+};
+
+/// The part that a job makes, to compare the result with. It goes with the stock and collides with
+/// nothing.
+struct DesignPart {
+  std::shared_ptr<const TriangleMesh> mesh;  ///< closed, seen from the stock's frame S
+  double gouge = 0.02;                       ///< mm that may be missing
+  double excess = 0.05;                      ///< mm that may be left …
+  double allowance = 0;                      ///< … beyond these, which are wanted
+  std::vector<Box3> leave;                   ///< any excess is wanted in here; S
   SourceSpan span;
 };
 
@@ -273,6 +286,8 @@ class Machine {
   const std::vector<Fixture>& fixtures() const { return fixtures_; }
   /// The raw piece that a setup put on; it is among bodies(), too, with the role `stock`.
   const std::optional<RawStock>& stock() const { return stock_; }
+  /// What it is to become. Not among bodies().
+  const std::optional<DesignPart>& part() const { return part_; }
   const Kinematics& kinematics() const { return *kinematics_; }
   const Spindle& spindle() const { return spindle_; }
   const ToolChange& tool_change() const { return tool_change_; }
@@ -298,6 +313,7 @@ class Machine {
   std::vector<Exclusion> exclusions_;
   std::vector<Fixture> fixtures_;  ///< whose bodies are in bodies_, after the machine's own
   std::optional<RawStock> stock_;
+  std::optional<DesignPart> part_;
   std::shared_ptr<const Kinematics> kinematics_;
   Spindle spindle_;
   ToolChange tool_change_;
@@ -357,7 +373,7 @@ struct SetupFixture {
 /// `[stock]` of a setup, before it is placed.
 struct SetupStock {
   RawStock raw;           ///< shape and sizes; `mesh` only once it is placed
-  std::string mesh_path;  ///< of a mesh, relative to the setup's folder
+  std::string mesh_path;  ///< of a mesh or a saved stock, relative to the setup's folder
   MeshFileOptions mesh_options;
   SourceSpan mesh_span;
   std::string replaces;  ///< a body that only stands for the piece in pictures; it goes
@@ -368,10 +384,22 @@ struct SetupStock {
   double angle = 0;           ///< about Z, rad
 };
 
+/// `[part]` of a setup, before it is placed.
+struct SetupPart {
+  DesignPart part;        ///< without its mesh; `leave` is in place
+  std::string mesh_path;  ///< relative to the setup's folder
+  MeshFileOptions mesh_options;
+  SourceSpan mesh_span;
+  Vec3 place = Vec3::Zero();  ///< of its origin, seen from the stock's frame, mm
+  double angle = 0;           ///< about Z, rad
+};
+
 /// What a job adds to the machine.
 struct Setup {
   std::string folder;  ///< of its file; paths start here
+  /// Of a saved stock (StockShape::saved) whoever calls apply_setup() gives pitch and mesh.
   std::optional<SetupStock> stock;
+  std::optional<SetupPart> part;
   std::vector<SetupFixture> fixtures;
   std::map<int, AxisValues> offsets;  ///< 1 = G54 … 9 = G59.3
   std::optional<JointVector> start;

@@ -79,6 +79,11 @@ std::optional<SetupStock> read_stock(config::Table& top, double unit_mm);
 /// `out`.
 void place_stock(const SetupStock& stock, const PackageFiles& files, Machine& machine,
                  Diagnostics& out);
+/// `[part]`, or `part = "FILE"`, of a setup; likewise.
+std::optional<SetupPart> read_part(config::Table& top, double unit_mm);
+/// Puts it on the machine, whose stock is placed. Problems go to `out`.
+void place_part(const SetupPart& part, const PackageFiles& files, Machine& machine,
+                Diagnostics& out);
 /// `color = "#rrggbb"`.
 Color read_color(config::Table& table, Color fallback = {});
 /// `unit` and `up` of a mesh file.

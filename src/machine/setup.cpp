@@ -102,7 +102,7 @@ Expected<Setup> read_setup_text(const SourceText& text, const Machine& machine, 
   setup.offsets = read_offsets(top, unit_mm);
   setup.start = read_start(top, machine, unit_mm);
   setup.stock = read_stock(top, unit_mm);
-  refuse(top, "part", "'part'");
+  setup.part = read_part(top, unit_mm);
   refuse(top, "probe", "[probe]");
   const Diagnostics problems = reader.finish();
   for (const Diagnostic& problem : problems.list()) out.add(problem);
@@ -121,6 +121,17 @@ Expected<Setup> read_setup(const std::string& path, const Machine& machine, Sour
   if (!setup) return setup;
   const std::size_t slash = path.find_last_of('/');
   setup->folder = slash == std::string::npos ? "." : path.substr(0, slash);
+  if (setup->stock && setup->stock->raw.shape == StockShape::saved) {
+    const auto saved = disk_files(setup->folder, sources).text(setup->stock->mesh_path);
+    if (!saved) {
+      Diagnostic error = saved.error();
+      error.kind = "setup_invalid";  // the file is the set-up's, not the machine's
+      error.span = setup->stock->mesh_span;
+      out.add(error);
+      return unexpected(error);
+    }
+    setup->stock->raw.saved = *saved;
+  }
   return setup;
 }
 
@@ -149,7 +160,9 @@ Expected<std::shared_ptr<const Machine>> apply_setup(const Machine& machine, con
     at->angle = wanted.angle.value_or(at->angle);
   }
   place_fixtures(*changed);
-  if (setup.stock) place_stock(*setup.stock, disk_files(setup.folder, sources), *changed, out);
+  const PackageFiles own = disk_files(setup.folder, sources);
+  if (setup.stock) place_stock(*setup.stock, own, *changed, out);
+  if (setup.part) place_part(*setup.part, own, *changed, out);
   if (out.errors() == errors_before) return std::shared_ptr<const Machine>(changed);
   return unexpected(make_error("setup_invalid", "the setup can't be put on the machine"));
 }

@@ -63,18 +63,19 @@ std::shared_ptr<const TriangleMesh> surface(const RawStock& raw) {
       revolve({{raw.diameter / 2, 0}, {raw.diameter / 2, raw.height}}, facet_tolerance));
 }
 
-// Exactly one of box, cylinder, tube, mesh.
+// Exactly one of box, cylinder, tube, mesh, file.
 void read_shape(config::Table& table, SetupStock& stock, double unit_mm) {
   RawStock& raw = stock.raw;
   std::vector<std::string> given;
-  for (const char* key : {"box", "cylinder", "tube", "mesh"}) {
+  for (const char* key : {"box", "cylinder", "tube", "mesh", "file"}) {
     table.know(key);
     if (table.has(key)) given.push_back(key);
   }
   if (given.size() != 1)
     return table.error(given.empty() ? "box" : given[1],
                        "[stock] needs one shape: box = [x, y, z], cylinder = [diameter, height], "
-                       "tube = [diameter, bore, height] or mesh = \"FILE\"");
+                       "tube = [diameter, bore, height], mesh = \"FILE\", or file = \"FILE\" of a "
+                       "stock that was saved");
   if (const auto box = sizes(table, "box", 3, unit_mm))
     raw.size = Vec3((*box)[0], (*box)[1], (*box)[2]);
   if (const auto cylinder = sizes(table, "cylinder", 2, unit_mm)) {
@@ -88,6 +89,12 @@ void read_shape(config::Table& table, SetupStock& stock, double unit_mm) {
     raw.bore = (*tube)[1];
     raw.height = (*tube)[2];
     if (raw.bore >= raw.diameter) table.error("tube", "the bore must be less than the diameter");
+  }
+  if (given[0] == "file") {
+    raw.shape = StockShape::saved;
+    stock.mesh_path = table.text("file", "");
+    stock.mesh_span = table.span("file");
+    if (stock.mesh_path.empty()) table.error("file", "'file' needs the path of a saved stock");
   }
   if (given[0] != "mesh") return;
   raw.shape = StockShape::mesh;
@@ -116,6 +123,8 @@ std::optional<SetupStock> read_stock(config::Table& top, double unit_mm) {
     stock.raw.pitch = *pitch * unit_mm;
     if (*stock.raw.pitch < 1e-3 || *stock.raw.pitch > 10)
       table->error("pitch", "'pitch' is the spacing of the lattice: 0.001 to 10 mm");
+    if (stock.raw.shape == StockShape::saved)
+      table->error("pitch", "a saved stock has its lattice already; take 'pitch' out");
   }
   return stock;
 }
@@ -158,6 +167,8 @@ void place_stock(const SetupStock& stock, const PackageFiles& files, Machine& ma
                   "the mesh of the stock must be closed and face outwards: what is "
                   "inside of it is not defined otherwise");
     raw.mesh = *mesh;
+  } else if (raw.shape == StockShape::saved) {
+    if (!raw.mesh || !raw.saved) return fail(stock.mesh_span, "a saved stock can't be used here");
   } else {
     raw.mesh = surface(raw);
   }

@@ -170,6 +170,12 @@ std::string summary_text(const RunReport& report, const std::vector<Message>& al
     out += "  stock    " + fixed((s.stock->initial_volume - s.stock->volume) / 1000, 2) + " of " +
            fixed(s.stock->initial_volume / 1000, 2) + " cm³ cut away, on a lattice of " +
            shortest(s.stock->pitch) + " mm\n";
+  if (s.part)
+    out += "  part     " + plural(s.part->points, "place") + " compared: at most " +
+           fixed(s.part->gouge, 3) + " mm into it (" + shortest(s.part->tol_gouge) +
+           " allowed), at most " + fixed(s.part->excess, 3) + " mm left on it (" +
+           shortest(s.part->tol_excess + s.part->allowance) + " allowed), between rays up to " +
+           shortest(s.part->bound) + " mm more\n";
   return out;
 }
 

@@ -140,6 +140,19 @@ Json stock(const std::optional<sim::Summary::Stock>& stock) {
           {"removed_mm3", stock->initial_volume - stock->volume}};
 }
 
+Json part(const std::optional<sim::Summary::Part>& part) {
+  if (!part) return nullptr;
+  return {{"largest_gouge_mm", part->gouge},
+          {"largest_excess_mm", part->excess},
+          {"bound_mm", part->bound},
+          {"tolerance_gouge_mm", part->tol_gouge},
+          {"tolerance_excess_mm", part->tol_excess},
+          {"allowance_mm", part->allowance},
+          {"gouges", part->gouges},
+          {"excesses", part->excesses},
+          {"points", part->points}};
+}
+
 Json collision(const sim::Summary::Collision& c) {
   return {{"bodies", c.bodies},
           {"pairs", c.pairs},
@@ -233,6 +246,7 @@ Json tail_items(const RunReport& report) {
           {"extents", extents},
           {"collision", collision(s.collision)},
           {"stock", stock(s.stock)},
+          {"part", part(s.part)},
           {"outputs", texts(report.outputs)}};
 }
 

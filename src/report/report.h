@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "report/deviation.h"
 #include "report/frames.h"
 #include "sim/sim.h"
 
@@ -113,5 +114,8 @@ struct SarifOptions {
 };
 /// SARIF 2.1.0.
 std::string to_sarif(const RunReport& report, const SarifOptions& options);
+
+/// 3MF (a zip archive with the unit in it), mm. The same mesh gives the same bytes.
+std::string three_mf_bytes(const TriangleMesh& mesh);
 
 }  // namespace aircut::report

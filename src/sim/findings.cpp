@@ -29,6 +29,10 @@ constexpr KindRow kinds[] = {
     {Kind::no_tool_cut, "no_tool_cut", Severity::error},
     {Kind::plunge_not_center_cutting, "plunge_not_center_cutting", Severity::error},
     {Kind::air_cut, "air_cut", Severity::info},
+    {Kind::gouge, "gouge", Severity::error},
+    {Kind::gouge_live, "gouge_live", Severity::error},
+    {Kind::excess, "excess", Severity::warning},
+    {Kind::wrong_setup, "wrong_setup", Severity::error},
     {Kind::dynamics_limit, "dynamics_limit", Severity::error},
     {Kind::tool_missing, "tool_missing", Severity::error},
     {Kind::not_executed, "not_executed", Severity::warning},
@@ -98,6 +102,7 @@ constexpr double same_time = 1e-6;  // s
 // Does `next` go on where `last` ended? A contact lasts; a near miss is a moment, so the parts of
 // the blocks in which it was looked for are compared.
 bool continues(const Finding& last, const Finding& next) {
+  if (next.kind == Kind::gouge || next.kind == Kind::excess) return false;  // places, not times
   if (next.kind == Kind::near_miss && !next.unresolved && !last.unresolved)
     return next.t_block <= last.t_block_end + same_time;
   return next.unresolved == last.unresolved && next.t_first <= last.t_end + same_time;

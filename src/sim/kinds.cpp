@@ -88,6 +88,29 @@ const std::vector<KindText>& finding_kinds() {
       {"air_cut", "a long feed move takes nothing",
        "A feed move of more than 20 mm removes no material: time is lost, or something stands\n"
        "elsewhere than the program thinks (work offset, length offset, stock)."},
+      {"gouge", "the result is cut into the part",
+       "With [part] in the set-up the stock that is left is compared with the design at the end:\n"
+       "at this place it lies inside the part by more than the tolerance (0.02 mm, or `gouge` in\n"
+       "[part]). The line is the one that cut deepest near there.\n"
+       "Remedy: see `gouge_live` of the same place; or correct the part's place in [part]."},
+      {"gouge_live", "the cutter goes into the part",
+       "While this line was executed, the cutter took material that belongs to the part, deeper\n"
+       "than the tolerance (0.02 mm, or `gouge` in [part]). What an earlier line took there is "
+       "not\n"
+       "told again.\n"
+       "Remedy: check the depth, the tool's length and radius offsets, the work offset, and where\n"
+       "the part stands ([part] place)."},
+      {"excess", "material is left on the part",
+       "With [part] in the set-up the stock that is left is compared with the design at the end:\n"
+       "at this place it stands out of the part by more than the tolerance (0.05 mm, or `excess`,\n"
+       "plus `allowance`). Where it shall stay, say so: [[part.leave]] low = [x, y, z], high = …\n"
+       "Remedy: machine it, or raise the allowance, or leave it."},
+      {"wrong_setup", "the stock does not contain the part",
+       "The part of [part] stands out of the raw piece before anything is cut, so it can't be "
+       "made\n"
+       "from it. Mostly the place of one of them is wrong.\n"
+       "Remedy: correct `place` and `angle` of [stock] or [part], the unit of a mesh, or the "
+       "sizes."},
       {"dynamics_limit", "a joint's acceleration or jerk limit is passed",
        "The planner looks at every sample that the joint log will hold. Where a limit is passed it "
        "plans\n"

@@ -73,6 +73,10 @@ enum class Kind : unsigned char {
   no_tool_cut,
   plunge_not_center_cutting,
   air_cut,
+  gouge,
+  gouge_live,
+  excess,
+  wrong_setup,
   dynamics_limit,
   tool_missing,
   not_executed,
@@ -175,6 +179,16 @@ struct Summary {
   };
   std::optional<Stock> stock;  ///< when there was one and all its cuts are known
 
+  /// The result against the design.
+  struct Part {
+    double gouge = 0, excess = 0;  ///< the largest found, mm
+    double tol_gouge = 0, tol_excess = 0, allowance = 0;
+    double bound = 0;                      ///< by which either may be larger, mm
+    std::size_t points = 0;                ///< compared
+    std::size_t gouges = 0, excesses = 0;  ///< places beyond the tolerances
+  };
+  std::optional<Part> part;  ///< when there was one and all cuts are known
+
   std::vector<std::string> unchecked;  ///< what was not checked, in words
   bool interrupted = false;
   bool limit_reached = false;    ///< of simulated time
@@ -190,7 +204,7 @@ class Check {
   virtual void step(const Step&, Findings&) = 0;
   /// The scene's bodies changed (a tool change) at the end of `step`, machine at `joints`.
   virtual void scene_changed(const Step&, const JointVector&, Findings&) {}
-  virtual void finish(Summary&) {}
+  virtual void finish(Summary&, Findings&) {}
 };
 
 /// The stock as it was during a run, for pictures.
@@ -259,6 +273,11 @@ class Simulator {
   /// What is left of the stock, in the frame of its body; empty when there was none or it is not
   /// known.
   std::optional<TriangleMesh> part() const;
+  /// The same stock for another job (stock.h, Stock::save); likewise.
+  std::optional<std::string> saved_stock() const;
+  /// How far each vertex of a mesh in the stock's frame is outside of the design, mm; empty when
+  /// there is no design part.
+  std::vector<double> deviation(const TriangleMesh& mesh) const;
   /// Null when there was no stock or the cuts were not kept. Error kind `output_failed`.
   /// It is cut on a lattice of at most `steps` to its longest side; the default is finer than a
   /// picture's pixels.

@@ -24,6 +24,16 @@ std::optional<TriangleMesh> Simulator::part() const {
   return cutting_->stock()->mesh();
 }
 
+std::optional<std::string> Simulator::saved_stock() const {
+  if (!cutting_ || !cutting_->stock()) return std::nullopt;
+  return cutting_->stock()->save();
+}
+
+std::vector<double> Simulator::deviation(const TriangleMesh& mesh) const {
+  if (!cutting_ || !cutting_->part()) return {};
+  return cutting_->part()->outside(mesh);
+}
+
 Expected<std::unique_ptr<StockHistory>> Simulator::stock_history(double steps) {
   if (!cutting_ || !cutting_->stock() || !cutting_->tape()) return nullptr;
   return cutting_->tape()->play(*scene_.machine().stock(), steps);
@@ -182,7 +192,7 @@ void Simulator::count(const plan::Segment& segment) {
 }
 
 Simulator::Result Simulator::finish() {
-  for (const auto& check : checks_) check->finish(summary_);
+  for (const auto& check : checks_) check->finish(summary_, findings_);
   summary_.findings_dropped = findings_.dropped();
   Result result{findings_.finish(), summary_};
   for (Observer* observer : observers_) observer->on_finish(result.summary);

@@ -40,13 +40,18 @@ class ColumnCutter {
     }
     for (const Work& w : work) cut_z(w);
     std::stable_sort(work.begin(), work.end(), [](const Work& a, const Work& b) {
-      return std::pair(!a.sweep.covers, a.sweep.covers ? a.sweep.cover_floor : a.sweep.nearest) <
-             std::pair(!b.sweep.covers, b.sweep.covers ? b.sweep.cover_floor : b.sweep.nearest);
+      return depth_key(a.sweep) < depth_key(b.sweep);
     });
     for (const Work& w : work) cut_sides(w);
   }
 
  private:
+  /// Sorts what takes most to the front.
+  static std::pair<bool, double> depth_key(const ColumnSweep& sweep) {
+    if (sweep.tilted) return {true, sweep.tilted->lowest_tip()};
+    return {!sweep.covers, sweep.covers ? sweep.cover_floor : sweep.nearest};
+  }
+
   struct Work {
     ColumnSweep sweep;
     std::size_t slot;
@@ -128,7 +133,7 @@ class ColumnCutter {
         std::uint16_t& top = brick.z_tops[static_cast<std::size_t>(row)];
         if (top == 0 || quanta > top) continue;
         if (sweep.tilted) {
-          if (sweep.tilted->misses(row_box(k, Family::z, row))) continue;
+          if (sweep.tilted->misses(row_box(k, Family::z, row, family))) continue;
           if (!sweep.tilted->chords(lattice(), {i_, j_, k}, Family::z, row, family.lows(row),
                                     family.highs(row), chords_))
             continue;
@@ -163,11 +168,27 @@ class ColumnCutter {
     return {low, low + Vec3::Constant(lattice().brick_size())};
   }
 
-  /// The box of a row's rays.
-  Box3 row_box(int k, Family f, int row) const {
+  /// The box of what is left on a row's rays.
+  Box3 row_box(int k, Family f, int row, const RayFamily& family) const {
     Box3 out = brick_box(k);
+    const Vec3 low = out.min();
     const int axis = f == Family::z ? 1 : 2;
-    out.min()[axis] = out.max()[axis] = out.min()[axis] + (row + 0.5) * lattice().pitch;
+    out.min()[axis] = out.max()[axis] = low[axis] + (row + 0.5) * lattice().pitch;
+    const std::uint16_t *lo = family.lows(row), *hi = family.highs(row);
+    if (!lo) return out;
+    int first = cells, last = -1, from = brick_quanta, to = 0;
+    for (int lane = 0; lane < cells; ++lane) {
+      if (lo[lane] >= hi[lane]) continue;
+      first = std::min(first, lane);
+      last = lane;
+      from = std::min<int>(from, lo[lane]);
+      to = std::max<int>(to, hi[lane]);
+    }
+    const int along = index_of(f), lanes = f == Family::x ? 1 : 0;
+    out.min()[lanes] = low[lanes] + (first + 0.5) * lattice().pitch;
+    out.max()[lanes] = low[lanes] + (last + 0.5) * lattice().pitch;
+    out.min()[along] = low[along] + from * lattice().quantum();
+    out.max()[along] = low[along] + to * lattice().quantum();
     return out;
   }
 
@@ -183,7 +204,7 @@ class ColumnCutter {
       if (z > sweep.roof) break;
       if (family.row_empty(row)) continue;
       if (sweep.tilted) {
-        if (sweep.tilted->misses(row_box(k, f, row))) continue;
+        if (sweep.tilted->misses(row_box(k, f, row, family))) continue;
         if (sweep.tilted->chords(lattice(), {i_, j_, k}, f, row, family.lows(row),
                                  family.highs(row), chords_))
           changed = take_row(family, row, chords_, kernels_).changed || changed;

@@ -92,6 +92,30 @@ class Query {
     return out;
   }
 
+  /// stock.h, Stock::deepest.
+  Touch deepest(const Piece& piece, const std::function<double(const Vec3&)>& depth_at,
+                double ignore, double at_surface) {
+    Touch out;
+    double best = ignore;
+    run(piece, [&](const Stretch& s) {
+      const double length = static_cast<double>(s.to - s.from) * lattice_.quantum();
+      if ((s.at_low || s.at_high) && length + at_surface <= best) return true;
+      // The value changes by no more than the way, so a shallow place lets the next ones go.
+      for (double way = 0;;) {
+        const Vec3 point =
+            place(s.family, s.node, static_cast<double>(s.from) + way / lattice_.quantum());
+        const double depth = depth_at(point);
+        if (depth > best) {
+          best = out.depth = depth;
+          out.point = point;
+        }
+        if (way >= length) return true;
+        way = std::min(length, way + std::max(lattice_.pitch, best - depth));
+      }
+    });
+    return out;
+  }
+
   /// The gap between the rays around a stretch, mm; nothing where the surface isn't smooth.
   std::optional<double> gap_at(const Stretch& s) {
     if (s.at_low && s.at_high) return std::nullopt;  // thin: all of an interval
@@ -399,6 +423,13 @@ bool touches(Query& query, Piece piece, double by) {
 Expected<Touch> Stock::touch(const Piece& piece) const {
   if (auto ok = supported({&piece, 1}); !ok) return unexpected(ok.error());
   return Query(*impl_).touch(piece);
+}
+
+Expected<Touch> Stock::deepest(const Piece& piece,
+                               const std::function<double(const Vec3&)>& depth_at, double ignore,
+                               double at_surface) const {
+  if (auto ok = supported({&piece, 1}); !ok) return unexpected(ok.error());
+  return Query(*impl_).deepest(piece, depth_at, ignore, at_surface);
 }
 
 Expected<ContactAnswer> Stock::would_cut(const Piece& piece, double tolerance) const {

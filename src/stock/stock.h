@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -144,6 +145,15 @@ class Stock {
   /// to `tolerance` mm is no hit. Error: `stock_unsupported`.
   Expected<ContactAnswer> would_cut(const Piece& piece, double tolerance) const;
 
+  /// The largest value (mm, above `ignore`) that a function of the place has in what the piece
+  /// would take, sampled along the rays at no more than a pitch; Touch has it as its depth. The
+  /// function must not change by more than 1 mm in a millimetre and be at most `at_surface` where
+  /// the material ends. Error: `stock_unsupported`.
+  Expected<Touch> deepest(const Piece& piece, const std::function<double(const Vec3&)>& depth_at,
+                          double ignore, double at_surface) const;
+  /// Calls `see` with every place where a ray along `axis` enters or leaves the material.
+  void each_end(int axis, const std::function<void(const Vec3&)>& see) const;
+
   double pitch() const;
   Box3 box() const;           ///< of the initial solid
   std::size_t bytes() const;  ///< resident, of the material itself
@@ -170,6 +180,61 @@ class Stock {
 
  private:
   explicit Stock(std::unique_ptr<Impl> impl);
+  std::unique_ptr<Impl> impl_;
+};
+
+/// What counts as a difference between a stock and the part that it is to become.
+struct PartTolerances {
+  double gouge = 0.02;           ///< mm that may be missing
+  double excess = 0.05;          ///< mm that may be left …
+  double allowance = 0;          ///< … beyond these, which are wanted
+  std::vector<Box3> leave = {};  ///< any excess is wanted in here
+};
+
+/// A place where a stock differs from the part: neighbouring points beyond the tolerance are one.
+struct Spot {
+  double depth = 0;           ///< mm, the largest
+  Vec3 point = Vec3::Zero();  ///< where
+  Box3 box;                   ///< of all its points
+};
+
+/// A stock compared with a part, at every place where a ray of its lattice leaves the material.
+struct Deviation {
+  double gouge = 0, excess = 0;        ///< the largest, mm
+  std::vector<Spot> gouges, excesses;  ///< beyond the tolerances, deepest first
+  std::size_t points = 0;              ///< that were compared
+  /// Not in the lists, which have the 100 deepest.
+  std::size_t gouges_dropped = 0, excesses_dropped = 0;
+};
+
+/// The part that a stock is to become: a closed mesh, in the stock's frame.
+class Part {
+ public:
+  /// Errors as those of Stock::make.
+  static Expected<Part> make(std::shared_ptr<const TriangleMesh> mesh, double pitch,
+                             const StockOptions& options = {});
+  Part(Part&&) noexcept;
+  Part& operator=(Part&&) noexcept;
+  ~Part();
+
+  /// How far a point is outside of the part, mm; negative inside.
+  double outside(const Vec3& point) const;
+  /// How deep the piece goes into the part, as the rays see it, at least `ignore` mm; zero if it
+  /// does not. Looks at what take() has left of the part. Error: `stock_unsupported`.
+  Expected<Touch> cut_into(const Piece& piece, double ignore) const;
+  /// Takes the piece off, which goes so deep into the part, so that only what goes deeper is found
+  /// from now on.
+  Expected<void> take(const Piece& piece, double depth);
+
+  /// How far the part stands out of a stock's initial solid, given by its surface, and where.
+  Spot outside_of(const TriangleMesh& raw) const;
+  Deviation compare(const Stock& stock, const PartTolerances& tolerances) const;
+  /// For each vertex of a mesh how far it is outside, mm.
+  std::vector<double> outside(const TriangleMesh& mesh) const;
+
+ private:
+  struct Impl;
+  explicit Part(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;
 };
 

@@ -121,6 +121,18 @@ bool TiltedSweep::misses(const Box3& box) const {
   return (rel - t * way).norm() > outline_->radius() + half.norm() + margin;
 }
 
+// Proof that no point between two places is touched.
+bool TiltedSweep::misses(const Vec3& from, const Vec3& to) const {
+  const double a = axis_.dot(from), b = axis_.dot(to);
+  if (std::max(a, b) < tip_low_ + outline_->low() - margin) return true;
+  if (std::min(a, b) > tip_high_ + outline_->high() + margin) return true;
+  const auto flat = [&](const Vec3& v) { return Vec3(v - axis_.dot(v) * axis_); };
+  const Vec3 rel = flat((from + to) / 2 - start_), way = flat(travel_);
+  const double length2 = way.squaredNorm();
+  const double t = length2 > 0 ? std::clamp(rel.dot(way) / length2, 0.0, 1.0) : 0;
+  return (rel - t * way).norm() > outline_->radius() + flat(to - from).norm() / 2 + margin;
+}
+
 bool TiltedSweep::holds(const Vec3& p) const {
   const Vec3 way = travel_ - axis_.dot(travel_) * axis_;
   const double length2 = way.squaredNorm();
@@ -223,6 +235,11 @@ bool TiltedSweep::chords(const Lattice& lattice, const std::array<int, 3>& brick
     Vec3 origin = low;
     origin[lane_axis] += (lane + 0.5) * lattice.pitch;
     origin[row_axis] += (row + 0.5) * lattice.pitch;
+    const double q = lattice.quantum();
+    const Vec3 along = Vec3::Unit(axis);
+    if (misses(origin + (lo ? lo[lane] : 0) * q * along,
+               origin + (hi ? hi[lane] : brick_quanta) * q * along))
+      continue;
     Ends ends;
     for (const Band& band : bands_) band_ends(band, origin, axis, ends);
     const auto quanta = [&](double mm) {

@@ -12,6 +12,7 @@ class TiltedSweep {
   TiltedSweep(const Outline& outline, const Vec3& start, const Vec3& end, const Vec3& axis);
 
   const Box3& box() const { return box_; }
+  double lowest_tip() const { return tip_low_; }  ///< along the axis
 
   /// Proof that no point of a box is touched.
   bool misses(const Box3& box) const;
@@ -26,6 +27,7 @@ class TiltedSweep {
   struct Ends;
   void band_ends(const Band& band, const Vec3& origin, int ray_axis, Ends& ends) const;
   bool holds(const Vec3& p) const;
+  bool misses(const Vec3& from, const Vec3& to) const;
 
   const Outline* outline_;
   std::vector<Band> bands_;  ///< corners with e > 0 as cones

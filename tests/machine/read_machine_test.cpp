@@ -310,10 +310,12 @@ TEST(Setup, SaysWhatIsWrongWhere) {
             "'G59.2' and 'G59.3'. [setup_invalid]\n"
             "11:12 unknown key 'slde'. Did you mean 'slide'? [setup_invalid]\n"
             "11:28 ram 9.5 is outside of the travel -101.6 to 0 [setup_invalid]\n");
-  EXPECT_EQ(setup_errors(*machine, sources, "part = \"x.stl\"\nschema = 9\n"),
-            "1:8 'part' is not supported by this version [setup_invalid]\n"
+  EXPECT_EQ(setup_errors(*machine, sources, "probe = \"x.stl\"\nschema = 9\n"),
+            "1:9 [probe] is not supported by this version [setup_invalid]\n"
             "2:10 schema 9 is newer than this version of aircut, which knows schema 1 "
             "[setup_invalid]\n");
+  EXPECT_EQ(setup_errors(*machine, sources, "[part]\nmesh = \"x.stl\"\ngouge = -1.0\n"),
+            "3:9 'gouge' must be 0 to 100 mm [setup_invalid]\n");
 }
 
 TEST(Setup, AnUnknownFixtureIsAnErrorAtItsName) {

@@ -165,6 +165,10 @@ class Samples {
     out.push_back(finding(Kind::no_tool_cut, 1, "there is no tool in the spindle"));
     out.push_back(finding(Kind::plunge_not_center_cutting, 5, "it can't cut at its centre"));
     out.push_back(finding(Kind::air_cut, 6, "this feed move takes no material"));
+    out.push_back(finding(Kind::gouge_live, 5, "cutter `T4/cutter` goes into the part"));
+    out.push_back(finding(Kind::gouge, 5, "the result is cut 0.200 mm into the part"));
+    out.push_back(finding(Kind::excess, 6, "0.300 mm of material is left on the part"));
+    out.push_back(finding(Kind::wrong_setup, 1, "the part stands out of the raw piece"));
     out.push_back(finding(Kind::dynamics_limit, 5, "the jerk limit of joint X is passed"));
     out.push_back(finding(Kind::tool_missing, 2, "T4 is not in the tool table"));
     out.push_back(finding(Kind::not_checked, 2, "T4 has no geometry"));

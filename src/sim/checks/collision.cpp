@@ -79,7 +79,7 @@ class CollisionCheck final : public Check {
       if (!pair.left_out) check_pair(step, pair, cache, out);
   }
 
-  void finish(Summary& summary) override {
+  void finish(Summary& summary, Findings&) override {
     summary.collision.pairs = most_pairs_;
     summary.collision.bodies = most_bodies_;
     summary.collision.distance_queries = cost_.distance_queries;

@@ -88,6 +88,7 @@ Expected<stock::Stock> make_stock(const machine::RawStock& raw, double pitch) {
           .radius = raw.diameter / 2, .inner_radius = raw.bore / 2, .length = raw.height};
       break;
     case machine::StockShape::mesh:
+    case machine::StockShape::saved:
       solid = stock::MeshSolid{raw.mesh};
       break;
   }

@@ -23,6 +23,7 @@ double volume_of(const machine::RawStock& raw) {
     case machine::StockShape::cylinder:
       return M_PI / 4 * (raw.diameter * raw.diameter - raw.bore * raw.bore) * raw.height;
     case machine::StockShape::mesh:
+    case machine::StockShape::saved:
       return volume(*raw.mesh);
   }
   return 0;
@@ -76,19 +77,29 @@ const stock::Stock* CuttingCheck::stock() const {
   return stock_ && given_up_.empty() ? &*stock_ : nullptr;
 }
 
-void CuttingCheck::start(const Scene& scene, const JointVector&, Findings&) {
+void CuttingCheck::start(const Scene& scene, const JointVector& joints, Findings& out) {
   raw_ = scene.machine().stock();
   if (!raw_) return;
-  const double pitch = raw_->pitch.value_or(default_pitch(*raw_));
-  auto made = make_stock(*raw_, pitch);
+  joints_ = joints;
+  machine_ = scene.machine_ptr();
+  auto made = raw_->saved ? stock::Stock::load(raw_->saved->content(), raw_->saved->name())
+                          : make_stock(*raw_, raw_->pitch.value_or(default_pitch(*raw_)));
   if (!made) return give_up(made.error().message);
   stock_ = std::move(*made);
+  const double pitch = stock_->pitch();
   initial_volume_ = volume_of(*raw_);
   tolerance_ = std::min(pitch / 10, 0.01);
   if (options_.keep_cuts) {
     auto tape = CutTape::make();
     if (!tape) return give_up(tape.error().message);
     tape_ = std::move(*tape);
+  }
+  if (const auto& design = scene.machine().part()) {
+    auto watch = PartWatch::make(*design, *raw_, pitch, out);
+    if (watch)
+      part_ = std::move(*watch);
+    else
+      no_part_ = watch.error().message;
   }
   read_tool(scene);
 }
@@ -182,6 +193,7 @@ stock::Touch CuttingCheck::touch_of(const stock::Piece& piece) {
 }
 
 void CuttingCheck::hold(const Step& step, const Solid& cutter, const StraightMove& move) {
+  if (part_) look_at_part(step, cutter, move);
   batch_.push_back(piece(cutter, move));
   batch_times_.push_back(tape_ ? time_at(step, move.s1) : 0);
   if (batch_.size() >= batch_size) flush();
@@ -229,6 +241,8 @@ void CuttingCheck::step(const Step& step, Findings& out) {
   if (!stock() || std::holds_alternative<plan::Hold>(step.segment.path)) return;
   // What a probe touches has no model: the verdict is unknown already.
   if (std::holds_alternative<canon::Probe>(step.segment.command.action)) return;
+  t_end_ = step.segment.t_end();
+  if (const auto end = step.motion.at(step.motion.t1())) joints_ = *end;
   if (!find_moves(step)) {
     give_up("the way of the tool over the stock can't be told");
     return tell_given_up(step, out);
@@ -236,7 +250,7 @@ void CuttingCheck::step(const Step& step, Findings& out) {
   rows_.clear();
   look_at(step, out);
   for (Finding& f : rows_) {
-    if (f.kind != Kind::collision && f.kind != Kind::near_miss && f.kind != Kind::no_tool_cut)
+    if (f.value && f.unit == "mm3" && f.kind != Kind::no_tool_cut)
       f.message += ": " + fixed(*f.value, *f.value < 10 ? 2 : 0) + " mm³ in its way";
     out.add(std::move(f));
   }
@@ -323,7 +337,8 @@ void CuttingCheck::cutter_may_not(const Step& step, const StraightMove& move, co
   if (!stock()) return;
   const stock::Touch touch = touch_of(whole);
   if (!stock() || !takes(touch)) return;
-  Finding f = row(kind, step, move, cutter, touch.point);
+  const auto enough = [&](const stock::Piece& part) { return takes(touch_of(part)); };
+  Finding f = row(kind, step, move, cutter, touch.point, enough);
   f.message = what_happens(kind, "cutter `" + cutter.name + "`");
   f.remedy = remedy_of(kind, left_hand_);
   f.depth_bound = stock_->pitch() / 2;
@@ -347,7 +362,9 @@ void CuttingCheck::ask(const Step& step, const StraightMove& move, const Solid& 
   if (!answer) return give_up(answer.error().message);
   if (answer->contact == stock::Contact::clear) return;
   const bool hit = answer->contact == stock::Contact::hit;
-  Finding f = row(hit ? Kind::collision : Kind::near_miss, step, move, solid, answer->touch.point);
+  const auto enough = [&](const stock::Piece& part) { return takes(touch_of(part)); };
+  Finding f =
+      row(hit ? Kind::collision : Kind::near_miss, step, move, solid, answer->touch.point, enough);
   const std::string who =
       (solid.role == machine::Role::shank ? "tool shank `" : "tool holder `") + solid.name + "`";
   if (hit) {
@@ -372,19 +389,21 @@ void CuttingCheck::tell(Finding f, const stock::Touch& touch) {
   } else {
     at->t_end = f.t_end;
     at->u_end = f.u_end;
+    if (touch.depth > at->depth.value_or(0)) at->points = f.points;
   }
   if (at->value) *at->value += touch.volume;
   if (!at->unresolved) at->depth = std::max(at->depth.value_or(0), touch.depth);
 }
 
 Finding CuttingCheck::row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
-                          const Vec3& point) {
+                          const Vec3& point,
+                          const std::function<bool(const stock::Piece&)>& enough) {
   // The first fraction of the move that takes something, by halving: what a longer part takes, it
   // takes too.
   double low = 0, part = 1;
   for (int i = 0; i < 12; ++i) {
     const double middle = 0.5 * (low + part);
-    (takes(touch_of(piece(solid, move, middle))) ? part : low) = middle;
+    (enough(piece(solid, move, middle)) ? part : low) = middle;
   }
   const double s = move.s0 + part * (move.s1 - move.s0);
   Finding f = finding_at(kind, step, time_at(step, s));
@@ -403,9 +422,47 @@ Finding CuttingCheck::row(Kind kind, const Step& step, const StraightMove& move,
   return f;
 }
 
-void CuttingCheck::finish(Summary& summary) {
+void CuttingCheck::look_at_part(const Step& step, const Solid& cutter, const StraightMove& move) {
+  const stock::Piece whole = piece(cutter, move);
+  const auto depth = part_->depth(whole);
+  if (!depth) return give_up(depth.error().message);
+  if (depth->depth == 0) return;
+  Finding f =
+      row(Kind::gouge_live, step, move, cutter, depth->point, [&](const stock::Piece& part) {
+        const auto touch = part_->depth(part);
+        return touch && touch->depth > 0;
+      });
+  f.body_b = "part";
+  f.pair = "cutter-part";
+  f.message = "cutter `" + cutter.name + "` goes into the part";
+  f.depth_bound = part_->bound();
+  f.limit = part_->design().gouge;
+  f.unit = "mm";
+  f.remedy =
+      "check the depth, the tool's length and radius offsets, and where the part stands ([part])";
+  if (auto taken = part_->take(whole, f, *depth); !taken) return give_up(taken.error().message);
+  tell(std::move(f), *depth);
+}
+
+void CuttingCheck::compare_with_part(Summary& summary, Findings& out) {
+  if (!no_part_.empty()) summary.unchecked.push_back("the result against the part: " + no_part_);
+  if (!part_) return;
+  machine::LinkPoses poses;
+  machine::forward(*machine_, joints_, poses);
+  Finding end;
+  end.t_first = end.t_worst = end.t_end = end.t_block = end.t_block_end = t_end_;
+  end.joints_first = end.joints_worst = joints_;
+  end.body_a = "stock";
+  end.body_b = "part";
+  end.pair = "stock-part";
+  const Pose X_WS = poses.X_WL[static_cast<std::size_t>(machine::index(raw_->link))] * raw_->X_LS;
+  summary.part = part_->compare(*stock_, X_WS, end, out);
+}
+
+void CuttingCheck::finish(Summary& summary, Findings& out) {
   if (!raw_) return;
   if (stock()) flush();
+  if (stock()) compare_with_part(summary, out);
   if (!stock()) {
     if (!told_) summary.unchecked.push_back("what the cutter takes from the stock: " + given_up_);
     return;

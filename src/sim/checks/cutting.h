@@ -14,11 +14,13 @@
 // earlier in the move. So it is asked before. Both are exact.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "sim/checks/cut_tape.h"
+#include "sim/checks/part_watch.h"
 #include "sim/checks/tool_way.h"
 #include "sim/sim.h"
 #include "stock/stock.h"
@@ -32,10 +34,12 @@ class CuttingCheck final : public Check {
   void start(const Scene& scene, const JointVector& joints, Findings& out) override;
   void step(const Step& step, Findings& out) override;
   void scene_changed(const Step& step, const JointVector& joints, Findings& out) override;
-  void finish(Summary& summary) override;
+  void finish(Summary& summary, Findings& out) override;
 
   /// Null when there is none, or not all that was cut is known.
   const stock::Stock* stock() const;
+  /// The part to be made; null when there is none or it can't be compared.
+  const stock::Part* part() const { return part_ && stock() ? part_->part() : nullptr; }
   /// Null when the cuts were not kept.
   CutTape* tape() { return tape_ ? &*tape_ : nullptr; }
 
@@ -64,8 +68,11 @@ class CuttingCheck final : public Check {
   void look_for_air(const Step& step, const std::vector<StraightMove>& moves, Findings& out);
   /// Adds a row, or lengthens the one of this step that is the same.
   void tell(Finding row, const stock::Touch& touch);
+  /// `enough`: whether a part of the move does what the row is about.
   Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
-              const Vec3& point);
+              const Vec3& point, const std::function<bool(const stock::Piece&)>& enough);
+  void look_at_part(const Step& step, const Solid& cutter, const StraightMove& move);
+  void compare_with_part(Summary& summary, Findings& out);
   void give_up(const std::string& why);
   void tell_given_up(const Step& step, Findings& out);
 
@@ -73,6 +80,10 @@ class CuttingCheck final : public Check {
   std::optional<machine::RawStock> raw_;
   std::optional<stock::Stock> stock_;
   std::optional<CutTape> tape_;
+  std::optional<PartWatch> part_;
+  machine::JointVector joints_;  ///< at the end of the last step
+  std::shared_ptr<const machine::Machine> machine_;
+  double t_end_ = 0;                           ///< of the last step, s
   double initial_volume_ = 0, tolerance_ = 0;  ///< mm³, mm
   std::int64_t removed_ = 0;                   ///< length of material taken on Z rays, quanta
   std::vector<Solid> cutters_, others_;
@@ -86,6 +97,7 @@ class CuttingCheck final : public Check {
   std::vector<stock::Piece> batch_;     ///< waiting to be cut
   std::vector<double> batch_times_;     ///< program time at the end of each
   std::string given_up_;  ///< why nothing more is known of the stock; empty: it is known
+  std::string no_part_;   ///< why the result can't be compared with the part
   bool told_ = false;
 };
 

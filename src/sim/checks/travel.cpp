@@ -81,7 +81,7 @@ class TravelCheck final : public Check {
     }
   }
 
-  void finish(Summary& summary) override {
+  void finish(Summary& summary, Findings&) override {
     for (std::size_t j = 0; j < low_.size(); ++j)
       summary.joints.push_back({names_[j], rotary_[j], low_[j], high_[j]});
   }

@@ -1,0 +1,105 @@
+// Steps: below −4, −2, −1 tolerances of a gouge, within the tolerances (one step below 0 and one
+// above), and beyond 1, 2, 4 … tolerances of excess. The allowance is wanted, so it counts as
+// within.
+#include "report/deviation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace aircut::report {
+
+namespace {
+
+constexpr std::array<std::array<std::uint8_t, 3>, DeviationScale::steps> scale_colors = {{
+    {158, 16, 40},    // far too deep
+    {222, 70, 44},    //
+    {246, 158, 60},   //
+    {250, 216, 104},  // too deep
+    {116, 190, 108},  // within the tolerances
+    {150, 206, 226},  // too much is left
+    {92, 158, 214},   //
+    {52, 104, 184},   //
+    {28, 54, 132},    // far too much
+}};
+
+}  // namespace
+
+DeviationScale::DeviationScale(const sim::Summary::Part& part) {
+  // A tolerance of 0 still needs steps that differ.
+  const double gouge = std::max(part.tol_gouge, 1e-3);
+  const double excess = std::max(part.tol_excess + part.allowance, 1e-3);
+  borders_ = {-8 * gouge, -4 * gouge, -2 * gouge, -gouge,
+              excess,     2 * excess, 4 * excess, 8 * excess};
+}
+
+int DeviationScale::step_of(double outside) const {
+  return static_cast<int>(std::upper_bound(borders_.begin(), borders_.end(), outside) -
+                          borders_.begin());
+}
+
+std::array<std::uint8_t, 3> DeviationScale::color_of(int step) {
+  return scale_colors[static_cast<std::size_t>(step)];
+}
+
+std::string DeviationScale::text_of(int step) const {
+  static constexpr std::array<const char*, steps> names = {
+      "dark red", "red", "orange", "yellow", "green", "pale blue", "blue", "royal blue", "navy"};
+  const std::string name = std::string(names[static_cast<std::size_t>(step)]) + ": ";
+  const auto border = [&](int i) { return shortest(borders_[static_cast<std::size_t>(i)]); };
+  if (step == 0) return name + "below " + border(0);
+  if (step == steps - 1) return name + "above " + border(steps - 2);
+  return name + border(step - 1) + " … " + border(step);
+}
+
+std::vector<std::array<std::uint8_t, 3>> DeviationScale::colors(
+    const std::vector<double>& outside) const {
+  std::vector<std::array<std::uint8_t, 3>> out;
+  out.reserve(outside.size());
+  for (const double d : outside) out.push_back(color_of(step_of(d)));
+  return out;
+}
+
+// A body per step: the triangles whose vertices are, in the mean, in it.
+Expected<render::Image> deviation_picture(const TriangleMesh& mesh,
+                                          const std::vector<double>& outside,
+                                          const DeviationScale& scale, render::FrameSize size) {
+  constexpr std::size_t steps = DeviationScale::steps;
+  std::array<TriangleMesh, steps> parts;
+  std::array<std::vector<std::uint32_t>, steps> number;  // of a vertex in the part, plus 1
+  for (auto& list : number) list.assign(mesh.vertices.size(), 0);
+  for (const auto& t : mesh.triangles) {
+    const auto step = static_cast<std::size_t>(
+        scale.step_of((outside[t[0]] + outside[t[1]] + outside[t[2]]) / 3));
+    std::array<std::uint32_t, 3> corners{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      std::uint32_t& known = number[step][t[c]];
+      if (known == 0) {
+        parts[step].vertices.push_back(mesh.vertices[t[c]]);
+        known = static_cast<std::uint32_t>(parts[step].vertices.size());
+      }
+      corners[c] = known - 1;
+    }
+    parts[step].triangles.push_back(corners);
+  }
+  auto renderer = render::Renderer::create(size);
+  if (!renderer) return unexpected(renderer.error());
+  render::Scene scene;
+  scene.floor = false;
+  scene.caption.left.push_back("deviation from the part, mm (below 0: into it)");
+  Box3 box;
+  for (std::size_t step = 0; step < steps; ++step) {
+    if (parts[step].empty()) continue;
+    const auto color = DeviationScale::color_of(static_cast<int>(step));
+    scene.caption.right.push_back(scale.text_of(static_cast<int>(step)));
+    box.extend(bounds(parts[step]));
+    scene.bodies.push_back({.name = "deviation",
+                            .mesh = std::make_shared<TriangleMesh>(std::move(parts[step])),
+                            .color = {color[0], color[1], color[2]}});
+  }
+  const auto camera =
+      render::camera_by_name("iso", box, static_cast<double>(size.width) / size.height);
+  if (!camera) return unexpected(camera.error());
+  return renderer->draw(scene, *camera);
+}
+
+}  // namespace aircut::report

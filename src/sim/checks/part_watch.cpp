@@ -1,0 +1,119 @@
+#include "sim/checks/part_watch.h"
+
+#include <algorithm>
+
+namespace aircut::sim {
+
+namespace {
+
+constexpr std::size_t most_cuts = 10'000;
+constexpr double facets = 0.011;  // mm: surfaces of round raw pieces may be off by this much
+
+std::string place_text(const Vec3& p) {
+  return "X " + fixed(p.x(), 2) + " Y " + fixed(p.y(), 2) + " Z " + fixed(p.z(), 2) +
+         " of the stock";
+}
+
+}  // namespace
+
+Expected<PartWatch> PartWatch::make(const machine::DesignPart& design, const machine::RawStock& raw,
+                                    double pitch, Findings& out) {
+  auto part = stock::Part::make(design.mesh, pitch);
+  if (!part) return unexpected(part.error());
+  // The surface of a saved stock is a mesh made on its lattice.
+  const double tolerance =
+      design.gouge + (raw.shape == machine::StockShape::saved ? pitch / 2 : facets);
+  if (const stock::Spot worst = part->outside_of(*raw.mesh); worst.depth > tolerance) {
+    Finding f;
+    f.kind = Kind::wrong_setup;
+    f.severity = severity_of(f.kind);
+    f.span = design.span;
+    f.body_a = "part";
+    f.body_b = "stock";
+    f.pair = "part-stock";
+    f.depth = worst.depth;
+    f.depth_bound = pitch / 2;
+    f.message = "the part stands out of the raw piece by " + fixed(worst.depth, 2) + " mm at " +
+                place_text(worst.point);
+    f.remedy = "correct `place` or `angle` of [part] or [stock], the mesh's unit, or the sizes";
+    out.add(f);
+  }
+  return PartWatch(design, std::move(*part), pitch);
+}
+
+Expected<stock::Touch> PartWatch::depth(const stock::Piece& piece) const {
+  return part_.cut_into(piece, design_.gouge);
+}
+
+Expected<void> PartWatch::take(const stock::Piece& piece, const Finding& row,
+                               const stock::Touch& touch) {
+  if (cuts_.size() < most_cuts) cuts_.push_back({row, touch});
+  return part_.take(piece, touch.depth);
+}
+
+// The deepest place that a piece made lies in or at the spot that it belongs to; of several, the
+// nearest to the spot's own deepest place.
+const PartWatch::Cut* PartWatch::who_cut(const stock::Spot& spot) const {
+  const Cut* best = nullptr;
+  double nearest = 0;
+  for (const Cut& cut : cuts_) {
+    const double away = spot.box.exteriorDistance(cut.touch.point);
+    if (away > 2 * pitch_) continue;
+    const double distance = (cut.touch.point - spot.point).norm();
+    if (best && distance >= nearest) continue;
+    best = &cut;
+    nearest = distance;
+  }
+  return best;
+}
+
+Summary::Part PartWatch::compare(const stock::Stock& stock, const Pose& X_WS, const Finding& end,
+                                 Findings& out) const {
+  const stock::Deviation found = part_.compare(stock, {.gouge = design_.gouge,
+                                                       .excess = design_.excess,
+                                                       .allowance = design_.allowance,
+                                                       .leave = design_.leave});
+  const auto tell = [&](Finding f, Kind kind, const stock::Spot& spot, double limit) {
+    f.kind = kind;
+    f.severity = severity_of(kind);
+    f.depth = spot.depth;
+    f.depth_bound = bound();
+    f.value = spot.depth;
+    f.limit = limit;
+    f.unit = "mm";
+    f.message = kind == Kind::gouge
+                    ? "the result is cut " + fixed(spot.depth, 3) + " mm into the part at "
+                    : fixed(spot.depth, 3) + " mm of material is left on the part at ";
+    f.message += place_text(spot.point);
+    out.add(std::move(f));
+  };
+  for (const stock::Spot& spot : found.gouges) {
+    const Cut* cut = who_cut(spot);
+    Finding f = cut ? cut->row : end;
+    if (!cut) f.points = {X_WS * spot.point};
+    f.body_a = "stock";
+    f.body_b = "part";
+    f.pair = "stock-part";
+    f.remedy = cut ? f.remedy : "the part was not cut here by this job: see [stock] and [part]";
+    tell(std::move(f), Kind::gouge, spot, design_.gouge);
+  }
+  for (const stock::Spot& spot : found.excesses) {
+    Finding f = end;
+    f.points = {X_WS * spot.point};
+    f.remedy = "machine it, or say that it stays: `allowance` or [[part.leave]]";
+    tell(std::move(f), Kind::excess, spot, design_.excess + design_.allowance);
+  }
+  Summary::Part part;
+  part.gouge = found.gouge;
+  part.excess = found.excess;
+  part.tol_gouge = design_.gouge;
+  part.tol_excess = design_.excess;
+  part.allowance = design_.allowance;
+  part.bound = bound();
+  part.points = found.points;
+  part.gouges = found.gouges.size() + found.gouges_dropped;
+  part.excesses = found.excesses.size() + found.excesses_dropped;
+  return part;
+}
+
+}  // namespace aircut::sim

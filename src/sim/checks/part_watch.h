@@ -1,0 +1,46 @@
+// Private: the part that a job makes (verification.md §4.4). While it is cut, what goes into the
+// part; in the end, where the result differs from it.
+#pragma once
+
+#include <vector>
+
+#include "sim/sim.h"
+#include "stock/stock.h"
+
+namespace aircut::sim {
+
+class PartWatch {
+ public:
+  /// Tells `wrong_setup` when the part stands out of the raw piece. Errors: stock.h, Stock::make.
+  static Expected<PartWatch> make(const machine::DesignPart& design, const machine::RawStock& raw,
+                                  double pitch, Findings& out);
+
+  const machine::DesignPart& design() const { return design_; }
+  const stock::Part* part() const { return &part_; }
+  double bound() const { return pitch_ / 2; }  ///< of depths, mm
+
+  /// How deep the piece goes into what is left of the part; 0 within the tolerance.
+  Expected<stock::Touch> depth(const stock::Piece& piece) const;
+  /// Takes it off the part; `row` tells of it.
+  Expected<void> take(const stock::Piece& piece, const Finding& row, const stock::Touch& touch);
+
+  /// Compares the result; `end` has the fields of rows without a line. X_WS: the stock's frame.
+  Summary::Part compare(const stock::Stock& stock, const Pose& X_WS, const Finding& end,
+                        Findings& out) const;
+
+ private:
+  struct Cut {
+    Finding row;
+    stock::Touch touch;
+  };
+  PartWatch(const machine::DesignPart& design, stock::Part part, double pitch)
+      : design_(design), part_(std::move(part)), pitch_(pitch) {}
+  const Cut* who_cut(const stock::Spot& spot) const;
+
+  machine::DesignPart design_;
+  stock::Part part_;
+  double pitch_;
+  std::vector<Cut> cuts_;  ///< into the part, the first of them
+};
+
+}  // namespace aircut::sim
