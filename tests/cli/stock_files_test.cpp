@@ -9,7 +9,7 @@ namespace {
 const std::string block =
     "schema = 1\n[stock]\nfixture = \"vise\"\nplace = [0.0, -40.0, 76.0]\n"
     "replaces = \"vise/work\"\n";
-const std::string raw = "box = [120.0, 79.8, 50.0]\npitch = 0.5\n";
+const std::string raw = "box = [120.0, 79.8, 50.0]\npitch = 1.0\n";
 
 // A slot along X in the block's upper face.
 std::string slot(double y) {
