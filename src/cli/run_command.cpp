@@ -15,6 +15,7 @@
 #include "log/log.h"
 #include "logbook/logbook.h"
 #include "page/page.h"
+#include "report/line_times.h"
 #include "semantics/semantics.h"
 
 namespace aircut::cli {
@@ -101,6 +102,7 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
     // Without result.json the folder is known to be incomplete.
     fs::remove(folder + "/result.json", error);
     fs::remove(folder + "/joints.csv", error);
+    fs::remove(folder + "/lines.jsonl", error);
     fs::remove(folder + "/sheet.png", error);
     for (const char* file :
          {"report.html", "part.stl", "part.3mf", "deviation.ply", "deviation.png"})
@@ -270,6 +272,11 @@ int run_command(const RunArguments& a) {
     log = std::move(*made);
     simulator.add_observer(*log);
   }
+  report::LineTimes line_times(machine);
+  if (!a.folder.empty())
+    if (auto ready = line_times.write_to(a.folder + "/lines.jsonl"); !ready)
+      return fail(ready.error());
+  simulator.add_observer(line_times);
   std::unique_ptr<report::FrameMaker> pictures;
   if (!a.folder.empty() && frames->spec.any()) {
     pictures = std::make_unique<report::FrameMaker>(job.machine, job.tools, *frames);
@@ -347,6 +354,16 @@ int run_command(const RunArguments& a) {
     report.joint_names.push_back(joint.name);
     report.joint_rotary.push_back(joint.kind == machine::JointKind::rotary);
   }
+  report.held_by = line_times.held();
+  if (log)
+    for (std::size_t j = 0; j < log->peaks().size(); ++j) {
+      const auto at = [&](std::size_t order) {
+        const log::JointPeak::At& peak = log->peaks()[j].of[order];
+        return report::JointPeak::At{peak.value, peak.t, peak.line};
+      };
+      report.peaks.push_back(
+          {report.joint_names[j], report.joint_rotary[j] ? "deg" : "mm", at(0), at(1), at(2)});
+    }
   report::Acceptance acceptance(std::move(*rules));
   acceptance.apply(a.program.program, report.diagnostics, report.findings, report.summary.unchecked,
                    report);
@@ -361,6 +378,8 @@ int run_command(const RunArguments& a) {
       if (auto written = hdf5->finish(); !written) return fail(written.error());
     if (a.log.empty()) report.outputs.push_back("joints.csv");
   }
+  if (auto written = line_times.result(); !written) return fail(written.error());
+  if (!a.folder.empty()) report.outputs.push_back("lines.jsonl");
   if (auto written = write_part(a, simulator, report); !written) return fail(written.error());
   if (pictures && stop_signal == 0) {
     auto history = simulator.stock_history();

@@ -7,6 +7,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -112,6 +113,36 @@ class Spool {
 
 }  // namespace
 
+namespace {
+
+// Differences over the last four rows.
+class PeakWatch {
+ public:
+  void row(const std::vector<double>& q, double period, double t, std::uint64_t line) {
+    if (last_[0].empty()) last_.fill(q);
+    std::rotate(last_.begin(), last_.begin() + 1, last_.end());
+    last_[3] = q;
+    peaks_.resize(q.size());
+    for (std::size_t j = 0; j < q.size(); ++j) {
+      const double a = last_[0][j], b = last_[1][j], c = last_[2][j], d = last_[3][j];
+      note(peaks_[j].of[0], (d - c) / period, t, line);
+      note(peaks_[j].of[1], (d - 2 * c + b) / (period * period), t, line);
+      note(peaks_[j].of[2], (d - 3 * c + 3 * b - a) / (period * period * period), t, line);
+    }
+  }
+  const std::vector<double>& now() const { return last_[3]; }
+  const std::vector<JointPeak>& peaks() const { return peaks_; }
+
+ private:
+  static void note(JointPeak::At& at, double value, double t, std::uint64_t line) {
+    if (std::abs(value) > at.value) at = {std::abs(value), t, line};
+  }
+  std::array<std::vector<double>, 4> last_;
+  std::vector<JointPeak> peaks_;
+};
+
+}  // namespace
+
 struct CsvJointLog::Impl {
   Impl(OutputFile output, const machine::Machine& m, JointLogOptions o)
       : file(std::move(output)), machine(m), options(std::move(o)) {
@@ -153,6 +184,7 @@ struct CsvJointLog::Impl {
   plan::Segment rest;  ///< of the last step, without its path and time law
   motion::JointState rest_state;
   Expected<void> result = {};
+  PeakWatch watch;
 };
 
 void CsvJointLog::Impl::step(const sim::Step& step) {
@@ -205,6 +237,12 @@ void CsvJointLog::Impl::row(const plan::Segment& segment, const motion::JointSta
   number(state.path_speed * feed_scale);
   number(state.s * feed_scale);
   joints(state.q);
+  if (options.every == 1) {
+    std::vector<double> q(scale.size());
+    for (std::size_t j = 0; j < q.size(); ++j)
+      q[j] = state.q[static_cast<Eigen::Index>(j)] * scale[j];
+    watch.row(q, options.period, t, segment.command.span.line);
+  }
   joints(state.v);
   joints(state.a);
   // What the joints really reach, not what was asked for.
@@ -286,6 +324,11 @@ void CsvJointLog::Impl::finish() {
   // counts as the end.
   while (static_cast<double>(next) * options.period < end_time - 1e-9 * options.period) ++next;
   if (stepped && result) row(rest, rest_state, static_cast<double>(next) * options.period);
+  // The machine stands behind the last row.
+  const std::vector<double> last = watch.now();
+  for (int k = 1; k <= 3 && !last.empty(); ++k)
+    watch.row(last, options.period, static_cast<double>(next) * options.period,
+              rest.command.span.line);
   flush();
   if (!result) return;
   file.write(header());
@@ -318,5 +361,6 @@ void CsvJointLog::on_start(const sim::Scene&, const sim::JointVector& joints) {
 void CsvJointLog::on_step(const sim::Step& step) { impl_->step(step); }
 void CsvJointLog::on_finish(const sim::Summary&) { impl_->finish(); }
 Expected<void> CsvJointLog::result() const { return impl_->result; }
+const std::vector<JointPeak>& CsvJointLog::peaks() const { return impl_->watch.peaks(); }
 
 }  // namespace aircut::log

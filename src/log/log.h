@@ -2,8 +2,11 @@
 // Units of the file: mm, degrees, seconds.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "sim/sim.h"
 
@@ -15,6 +18,16 @@ struct JointLogOptions {
   std::string program;    ///< name in the header
   std::string program_sha256;
   std::string machine_sha256;
+};
+
+/// The most that a joint does, by differences of the rows; the machine stands before and after.
+struct JointPeak {
+  struct At {
+    double value = 0;  ///< mm or degrees per s, s², s³
+    double t = 0;      ///< s
+    std::uint64_t line = 0;
+  };
+  std::array<At, 3> of;  ///< speed, acceleration, jerk
 };
 
 /// Samples q(t) at every period and writes `joints.csv`; complete or absent.
@@ -29,6 +42,8 @@ class CsvJointLog final : public sim::Observer {
   void on_finish(const sim::Summary& summary) override;
   /// Result of the commit, after on_finish.
   Expected<void> result() const;
+  /// By joint, after on_finish; empty when not every sample was written.
+  const std::vector<JointPeak>& peaks() const;
 
  private:
   CsvJointLog();

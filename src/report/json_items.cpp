@@ -222,6 +222,19 @@ Json summary_item(const RunReport& report) {
           {"moves", s.moves}};
 }
 
+Json peaks(const std::vector<JointPeak>& list) {
+  Json out = Json::object();
+  for (const JointPeak& peak : list) {
+    const auto at = [&](const JointPeak::At& a, const char* per) {
+      return Json{{"value", a.value}, {"unit", peak.unit + per}, {"t_s", a.t}, {"line", a.line}};
+    };
+    out[utf8(peak.joint)] = {{"speed", at(peak.speed, "/s")},
+                             {"acceleration", at(peak.acceleration, "/s^2")},
+                             {"jerk", at(peak.jerk, "/s^3")}};
+  }
+  return out;
+}
+
 Json tail_items(const RunReport& report) {
   const sim::Summary& s = report.summary;
   Json extents = Json::object();
@@ -234,20 +247,27 @@ Json tail_items(const RunReport& report) {
   Json waivers = Json::array();
   for (const Waiver& w : report.waivers)
     waivers.push_back({{"waiver", utf8(w.text)}, {"reason", utf8(w.reason)}, {"used", w.used}});
-  return {{"waivers", waivers},
-          {"baseline_gone", or_null(report.baseline_gone)},
-          {"programs", programs(report)},
-          {"timing",
-           {{"cycle_time_s", s.cycle_time},
-            {"feed_s", s.feed_time},
-            {"rapid_s", s.rapid_time},
-            {"dwell_s", s.dwell_time},
-            {"tool_change_s", s.tool_change_time}}},
-          {"extents", extents},
-          {"collision", collision(s.collision)},
-          {"stock", stock(s.stock)},
-          {"part", part(s.part)},
-          {"outputs", texts(report.outputs)}};
+  Json timing = {{"cycle_time_s", s.cycle_time},
+                 {"feed_s", s.feed_time},
+                 {"rapid_s", s.rapid_time},
+                 {"dwell_s", s.dwell_time},
+                 {"tool_change_s", s.tool_change_time}};
+  if (!report.held_by.empty()) {
+    Json held = Json::object();
+    for (const auto& [cause, seconds] : report.held_by) held[utf8(cause)] = seconds;
+    timing["held_by_s"] = held;
+  }
+  Json out = {{"waivers", waivers},
+              {"baseline_gone", or_null(report.baseline_gone)},
+              {"programs", programs(report)},
+              {"timing", timing},
+              {"extents", extents}};
+  if (!report.peaks.empty()) out["peaks"] = peaks(report.peaks);
+  out.update({{"collision", collision(s.collision)},
+              {"stock", stock(s.stock)},
+              {"part", part(s.part)},
+              {"outputs", texts(report.outputs)}});
+  return out;
 }
 
 std::string json_text(const Json& json, int indent) {

@@ -51,6 +51,17 @@ struct Accepted {
   bool baseline = false;  ///< it was in an earlier report
 };
 
+/// The most that a joint does, by differences of the joint log's rows.
+struct JointPeak {
+  struct At {
+    double value = 0;  ///< per s, s², s³
+    double t = 0;      ///< s
+    std::uint64_t line = 0;
+  };
+  std::string joint, unit;  ///< mm or deg
+  At speed, acceleration, jerk;
+};
+
 /// Everything that a run ends with.
 struct RunReport {
   std::string version;
@@ -63,6 +74,8 @@ struct RunReport {
   sim::Summary summary;
   std::vector<std::string> joint_names;
   std::vector<bool> joint_rotary;
+  std::map<std::string, double> held_by;     ///< s, by what held the speed; empty: not known
+  std::vector<JointPeak> peaks;              ///< empty without a joint log of every sample
   std::vector<std::string> outputs;          ///< relative to the output folder
   std::vector<Unit> units;                   ///< empty when there was one program
   std::vector<Accepted> accepted;            ///< not among diagnostics and findings

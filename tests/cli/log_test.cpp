@@ -1,4 +1,7 @@
 // `aircut log` and `aircut diff`: joint logs read back, and programs compared by their motion.
+#include <map>
+#include <nlohmann/json.hpp>
+
 #include "program.h"
 
 namespace aircut {
@@ -108,6 +111,48 @@ TEST_F(LogCommand, WritesAndReadsHdf5) {
   const Outcome cut = aircut("log info " + path("cut.h5"));
   EXPECT_EQ(cut.code, 2);
   EXPECT_TRUE(cut.says("cut.h5' is no joint log")) << cut.err;
+}
+
+TEST_F(LogCommand, ARunTellsWhatHeldEachLineAndTheMostOfEachJoint) {
+  put("part.ngc",
+      "G21 G90 G17 G61.1 G54\nT5 M6\nG43 H5\nS3000 M3\nG0 X10 Y10 Z20\nG1 X60 F300\nG4 P0.5\n"
+      "G1 X60.5 F3000\nM5\nM2\n");
+  aircut("run " + path("part.ngc") + " -m mill3 --check syntax --frames none -o " + path("out"));
+  const auto document = nlohmann::json::parse(text_of(path("out/result.json")));
+  std::ifstream lines(path("out/lines.jsonl"));
+  std::map<int, nlohmann::json> row;
+  double sum = 0;
+  for (std::string text; std::getline(lines, text);) {
+    const auto item = nlohmann::json::parse(text);
+    row[item["line"]] = item;
+    sum += item["time_s"].get<double>();
+  }
+  EXPECT_EQ(row[6]["limited_by"], "feed");
+  EXPECT_NEAR(row[6]["length_mm"].get<double>(), 50, 1e-9);
+  EXPECT_GT(row[6]["time_s"].get<double>(), 10) << "50 mm at 5 mm/s";
+  EXPECT_EQ(row[7]["limited_by"], "dwell");
+  EXPECT_NEAR(row[7]["time_s"].get<double>(), 0.5, 1e-12);
+  EXPECT_EQ(row[8]["limited_by"], "X acceleration");
+  const double cycle = document["timing"]["cycle_time_s"];
+  EXPECT_NEAR(sum, cycle, 1e-9);
+  double held = 0;
+  for (const auto& [cause, seconds] : document["timing"]["held_by_s"].items())
+    held += seconds.get<double>();
+  EXPECT_NEAR(held, cycle, 1e-9);
+  // The most of each joint is what the checker reads from the log.
+  const Outcome info = aircut("log info " + path("out/joints.csv"));
+  const auto& x = document["peaks"]["X"];
+  EXPECT_GT(x["acceleration"]["value"].get<double>(), 0);
+  EXPECT_EQ(x["acceleration"]["unit"], "mm/s^2");
+  EXPECT_TRUE(info.says(std::to_string(x["speed"]["line"].get<int>())));
+  EXPECT_TRUE(document["outputs"].dump().find("lines.jsonl") != std::string::npos);
+}
+
+TEST_F(LogCommand, AThreadThatTheAxisCanNotFollowIsFound) {
+  const Outcome run = aircut("run tests/data/findings/sync_limit.ngc -m mill3 --check syntax");
+  EXPECT_EQ(run.code, 1);
+  EXPECT_TRUE(run.says("sync_limit")) << run.out;
+  EXPECT_TRUE(run.says("sync_limit.ngc:7")) << run.out;
 }
 
 struct Diff : Program {

@@ -31,6 +31,42 @@ std::string text_of(const Planned& planned) {
   return out;
 }
 
+// ---- traps of other planners -----------------------------------------------------------------
+
+TEST(Trap, AHairOfWayBesideALargeTurnCountsAsATurn) {
+  const auto machine = identity_machine("XA", {{100, 1000}, {60, 600}});
+  const double turn = time_of(*machine, Program().feed(30).line(at({{Axis::a, 100 * rad}})));
+  const double both =
+      time_of(*machine, Program().feed(30).line(at({{Axis::x, 5e-9}, {Axis::a, 100 * rad}})));
+  EXPECT_NEAR(both, turn, 1e-9 * turn);
+  EXPECT_NEAR(turn, 100.0 / 30 + 30.0 / 600, 1e-9);
+}
+
+TEST(Trap, SegmentsOfATenthOfAMicrometreTakeTheTimeOfTheWholeLine) {
+  const auto machine = mill();
+  Program whole, pieces;
+  whole.blend(0.01).feed(50).line(xyz(0.2, 0.1, 0));
+  pieces.blend(0.01).feed(50);
+  for (int i = 1; i <= 2000; ++i) pieces.line(xyz(1e-4 * i, 0.5e-4 * i, 0));
+  const double t = time_of(*machine, whole);
+  EXPECT_NEAR(time_of(*machine, pieces), t, 1e-4 * t);
+}
+
+TEST(Trap, ABlendIsNoRounderForAFeedThatNobodyAskedFor) {
+  const auto machine = mill();
+  const auto cut = [&](double feed) {
+    const Planned planned =
+        plan_program(*machine, zeros(*machine),
+                     Program().blend(0).feed(feed).line(xyz(50, 0, 0)).line(xyz(50, 50, 0)));
+    double length_of_blend = 0;
+    for (const Segment& segment : planned.segments)
+      if (segment.kind == MotionKind::blend) length_of_blend += length(segment.path);
+    return length_of_blend;
+  };
+  EXPECT_GT(cut(5), 0);
+  EXPECT_NEAR(cut(10) / cut(5), 4, 0.3) << "size goes with the square of the feed";
+}
+
 // ---- corners ---------------------------------------------------------------------------------
 
 TEST(Corner, BlendsAreNoSlowerThanTheVectorsAndStayWithinP) {
