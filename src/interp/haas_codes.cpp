@@ -33,6 +33,7 @@ constexpr CodeRule common[] = {
     {'G', 1280, G::work_system,  P::work_system,   none,   "",      fanuc_work_system},
     {'G', 1290, G::work_system,  P::work_system,   none,   "",      fanuc_work_system},
     {'G', 1540, G::work_system,  P::work_system,   none,   "P",     fanuc_work_system},
+    {'G', 661, G::free,          P::non_modal,     none,   "PL",    nullptr},
     // They move nothing, and are not modelled.
     {'G', 1030, G::free,         P::control,       none,   "P",     accepted},
     {'G', 1870, G::free,         P::control,       none,   "PE",    accepted},

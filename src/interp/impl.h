@@ -87,11 +87,12 @@ struct Frame {
   std::optional<BackwardJump> back;  ///< the last one
 };
 
-/// A macro that is called behind every move (G66).
+/// A macro that is called behind every move (G66), or for every block (G66.1).
 struct ModalMacro {
   std::int64_t label = 0;
   std::uint64_t repeats = 1;
   std::vector<double> locals;
+  bool each_block = false;
 };
 
 class Interpreter::Impl final : public Site, private LiveValues {
@@ -188,6 +189,9 @@ class Interpreter::Impl final : public Site, private LiveValues {
   ProgramFile* open_program_file(std::int64_t number, Place place, int& entry);
   void modal_macro_call(const BlockRun& run);
   void change_modal_macros(const FlowRequest& request);
+  void call_modal_macro(FlowRequest request, std::size_t level);
+  bool is_handed_over(const Block& block) const;
+  void hand_over(Block& block);
   std::size_t modal_level() const;
   Block& without_vacant(Block& block);
   void remember_words(const Block& block);
@@ -277,6 +281,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   std::size_t cached_blocks_ = 0;
   std::vector<ModalMacro> modal_macros_;  ///< in force, the last G66 last
   Block reduced_;                         ///< a block without its vacant words
+  Block handed_;                          ///< a block under G66.1: its modal codes, its arguments
   std::array<double, 26> last_words_{};   ///< numbers by letter, for #4107…
   std::int64_t last_number_ = 0;          ///< of the last N word
   Unsure unsure_;

@@ -301,8 +301,11 @@ bool Interpreter::Impl::plain_settings(const Block& block) {
 
 void Interpreter::Impl::execute_words(Block& block, const SuspendedBlock* rest) {
   if (contour_frame_ >= 0) return read_contour_block(block);
-  if (!rest && options_.fast_paths && (plain_move(block) || plain_settings(block))) return;
-  const bool settings_only = block.words.empty() && !block.comment;
+  if (!modal_macros_.empty() && is_handed_over(block)) return hand_over(block);
+  const bool handed = &block == &handed_;
+  if (!handed && !rest && options_.fast_paths && (plain_move(block) || plain_settings(block)))
+    return;
+  const bool settings_only = !handed && block.words.empty() && !block.comment;
   if (settings_only && (!table_.dialect().macro_b ||
                         block.plain_settings)) {  // settings alone leave the modal state as it is
     BlockRun run(session_, block, state_, *this, queue_);
@@ -333,6 +336,8 @@ void Interpreter::Impl::execute_words(Block& block, const SuspendedBlock* rest) 
   if (comp_active) comp_before = session_.compensator;
   BlockRun run(session_, block, next_, *this, queue_);
   run_block(run, block, rest);
+  if (handed && run.ok() && take_block_as_arguments(run))
+    run.flow.kind = FlowRequest::Kind::block_call;
   if (!run.ok()) {
     queue_.resize(first);
     parameters_.roll_back();
@@ -406,6 +411,9 @@ void Interpreter::Impl::finish_words(Block& block, BlockRun& run, std::size_t fi
     case FlowRequest::Kind::modal_call:
     case FlowRequest::Kind::modal_end:
       change_modal_macros(run.flow);
+      break;
+    case FlowRequest::Kind::block_call:
+      call_modal_macro(run.flow, modal_level());
       break;
     case FlowRequest::Kind::contour:
       start_contour(run.flow, *run.flow.cycle);

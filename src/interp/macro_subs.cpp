@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/text.h"
+#include "interp/codes/codes.h"
 #include "interp/dialect.h"
 #include "interp/impl.h"
 #include "interp/macro_expression.h"
@@ -139,22 +140,75 @@ void Interpreter::Impl::change_modal_macros(const FlowRequest& request) {
     statistics_.limit_reached = true;
     return stop();
   }
-  modal_macros_.push_back({request.label, request.repeats, request.locals});
+  modal_macros_.push_back({request.label, request.repeats, request.locals, request.each_block});
+  if (request.each_block) call_modal_macro(request, modal_macros_.size());
+}
+
+// The macro of the `level`-th G66 in force, with the arguments and the place of `request`.
+void Interpreter::Impl::call_modal_macro(FlowRequest request, std::size_t level) {
+  const ModalMacro& macro = modal_macros_[level - 1];
+  if (macro.repeats == 0) return;
+  request.label = macro.label;
+  request.repeats = macro.repeats;
+  if (push_program(request, (macro.each_block ? "G66.1 P" : "G66 P") + std::to_string(macro.label)))
+    frames_.back().modal_call = level;
 }
 
 void Interpreter::Impl::modal_macro_call(const BlockRun& run) {
   if (!run.motion_rule || !run.has_axis_words() || run.motion_rule->code == 800) return;
   const std::size_t level = modal_level();
-  if (level == 0) return;
-  const ModalMacro& macro = modal_macros_[level - 1];
-  if (macro.repeats == 0) return;
+  if (level == 0 || modal_macros_[level - 1].each_block) return;
   FlowRequest request;
-  request.label = macro.label;
-  request.repeats = macro.repeats;
-  request.locals = macro.locals;
+  request.locals = modal_macros_[level - 1].locals;
   request.place = run.whole();
-  if (push_program(request, "G66 P" + std::to_string(request.label)))
-    frames_.back().modal_call = level;
+  call_modal_macro(std::move(request), level);
+}
+
+// Statements, comments and G67 are executed under G66.1; the words of other blocks are arguments.
+bool Interpreter::Impl::is_handed_over(const Block& block) const {
+  const std::size_t level = modal_level();
+  if (level == 0 || !modal_macros_[level - 1].each_block || block.words.empty()) return false;
+  return &block != &handed_ &&
+         std::none_of(block.words.begin(), block.words.end(), [](const Word& word) {
+           return word.rule && word.rule->handler == end_modal_macro;
+         });
+}
+
+// The modal G codes of the block act, all else is handed to the macro.
+void Interpreter::Impl::hand_over(Block& block) {
+  for (const Fault& warning : block.warnings)
+    if (std::string_view(warning.kind) == "duplicate_word")
+      return report("unsupported_code", warning.place,
+                    "a letter twice in a block that G66.1 hands to its macro is not implemented");
+  handed_ = block;
+  handed_.following = nullptr;
+  handed_.plain_move = false;
+  handed_.words.clear();
+  handed_.macro_words.clear();
+  handed_.slot.fill(-1);
+  handed_.letters = 0;
+  handed_.has_rules = false;
+  for (const Word& word : block.words) {
+    if (word.letter == 'M' && word.rule && word.rule->phase == Phase::stop &&
+        word.rule->handler != program_stop)
+      return report("unsupported_code", word.place,
+                    name_of(*word.rule) +
+                        " in a block that G66.1 hands to its macro would be an argument; give G67 "
+                        "before");
+    handed_.macro_words.push_back(word);
+    if (word.letter != 'G') continue;
+    const bool modal = word.rule && word.rule->group != ModalGroup::non_modal &&
+                       word.rule->group != ModalGroup::macro_call &&
+                       word.rule->group != ModalGroup::free;
+    if (!modal)
+      return report("unsupported_code", word.place,
+                    "in a block that G66.1 hands to its macro only modal codes act; give G67 "
+                    "before this one");
+    handed_.has_rules = true;
+    handed_.letters |= letter_bit('G');
+    handed_.words.push_back(word);
+  }
+  execute_words(handed_);
 }
 
 void Interpreter::Impl::call_local(const FlowRequest& request) {

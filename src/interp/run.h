@@ -48,7 +48,8 @@ struct FlowRequest {
     jump,        ///< go on behind `target` (contours of N blocks that a cycle has used)
     local_call,  ///< M97
     macro_call,  ///< G65
-    modal_call,  ///< G66
+    modal_call,  ///< G66, G66.1
+    block_call,  ///< the block is handed to the macro of G66.1
     modal_end,   ///< G67
     remap        ///< the sub of a remapped code
   } kind = Kind::none;
@@ -56,6 +57,7 @@ struct FlowRequest {
   std::uint64_t repeats = 1;          ///< L
   std::optional<std::int64_t> block;  ///< M99 P
   std::vector<double> locals;         ///< #1-#33 of a macro call
+  bool each_block = false;            ///< G66.1
   Place place;                        ///< for messages
   BlockPlace target;
   const CodeRule* cycle = nullptr;  ///< that asks for a contour

@@ -133,6 +133,8 @@ void return_from_program(const CodeRule&, BlockRun&);
 void call_macro(const CodeRule&, BlockRun&);
 void end_modal_macro(const CodeRule&, BlockRun&);
 void call_macro_per_block(const CodeRule&, BlockRun&);
+/// G66.1: #1-#33 of its macro from the block's `macro_words`. False when one can't be an argument.
+bool take_block_as_arguments(BlockRun&);
 // program.cpp
 void program_stop(const CodeRule&, BlockRun&);
 void program_end(const CodeRule&, BlockRun&);

@@ -14,8 +14,17 @@ namespace {
 constexpr int max_repeats = 99'999'999;
 
 // #1… of the letters A to Z; 0 for those that are no arguments. I J K are those of the first set.
+// G, L and P are arguments only of a block that G66.1 hands over.
 constexpr std::array<int, 26> variable_of = {1, 2, 3, 7,  8,  9,  0,  11, 4,  5,  6,  0,  13,
                                              0, 0, 0, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26};
+
+int variable_for(char letter, bool whole_block) {
+  if (letter < 'A' || letter > 'Z') return 0;
+  if (whole_block && letter == 'G') return 10;
+  if (whole_block && letter == 'L') return 12;
+  if (whole_block && letter == 'P') return 16;
+  return variable_of[static_cast<std::size_t>(letter - 'A')];
+}
 
 std::optional<std::uint64_t> repeats_of(BlockRun& run) {
   const auto l = run.integer('L', 0, max_repeats);
@@ -37,14 +46,13 @@ bool program_number(const CodeRule& rule, BlockRun& run) {
 
 // #1-#33 from the words behind G65. I J K may come again: each further set fills the next three
 // variables, and within a set they come in this order. What comes later counts.
-bool arguments_of(BlockRun& run, std::vector<double>& locals) {
+bool arguments_of(BlockRun& run, std::vector<double>& locals, bool whole_block = false) {
   locals.assign(Parameters::macro_locals, vacant_value);
   int set = 0;
   char before = 0;
   std::optional<Fault> fault;
   for (const Word& word : run.block.macro_words) {
-    const int at = word.letter >= 'A' && word.letter <= 'Z' ? word.letter - 'A' : -1;
-    int variable = at < 0 ? 0 : variable_of[static_cast<std::size_t>(at)];
+    int variable = variable_for(word.letter, whole_block);
     if (variable == 0) {
       run.error("word_unused", word.place,
                 written(word.letter) + " can't be an argument of a macro");
@@ -64,7 +72,8 @@ bool arguments_of(BlockRun& run, std::vector<double>& locals) {
       run.error(fault->kind, fault->place, fault->message);
       return false;
     }
-    const double number = word.text.constant() ? word_number(run, word, *value) : *value;
+    const bool scaled = word.text.constant() && word.letter != 'G';
+    const double number = scaled ? word_number(run, word, *value) : *value;
     locals[static_cast<std::size_t>(variable - 1)] = number;
   }
   return true;
@@ -115,12 +124,16 @@ void call_macro(const CodeRule& rule, BlockRun& run) {
   run.flow.kind = rule.code == 650 ? FlowRequest::Kind::macro_call : FlowRequest::Kind::modal_call;
 }
 
-// The manuals do not say alike whether the line with G66.1 calls too, and what its codes then do.
+// G66.1 calls for every block behind it, which becomes the arguments.
 void call_macro_per_block(const CodeRule& rule, BlockRun& run) {
-  run.error("unsupported_code", rule,
-            "G66.1 hands every block to a macro instead of executing it, which is not implemented; "
-            "call the macro with G65 in each block");
+  call_macro(rule, run);
+  run.flow.each_block = true;
+  run.warning("control_setting", run.place(rule),
+              "controls differ in whether the line with G66.1 calls the macro too; here it does, "
+              "with the arguments of that line");
 }
+
+bool take_block_as_arguments(BlockRun& run) { return arguments_of(run, run.flow.locals, true); }
 
 void end_modal_macro(const CodeRule&, BlockRun& run) {
   run.flow.kind = FlowRequest::Kind::modal_end;
