@@ -96,13 +96,19 @@ void Compensator::flush(BlockRun& run) {
   held_.clear();
 }
 
-// G40: the last move must still run forward from where its corner has put its start.
+// G40, M2: the last move must still run forward from where its corner has put its start.
 void Compensator::finish(BlockRun& run) {
   if (!held_.empty() && last_ && runs_back(*last_))
     return run.error("comp_gouge", run.whole(),
                      "the tool with radius " + mm(run.state.comp.radius) +
                          " does not fit: the last move is too short behind its corner");
   flush(run);
+}
+
+bool Compensator::excuse_held() {
+  if (held_.empty() || !last_ || !runs_back(*last_)) return false;
+  last_->excused = true;
+  return true;
 }
 
 void Compensator::leave(BlockRun& run, const PlannedMove& planned) {
@@ -421,6 +427,7 @@ bool Compensator::still_forward(const Path& path) const {
 // True when the corners at both ends of a path have swallowed it. An arc then runs nearly once more
 // round; a joint that is almost straight lengthens it a little.
 bool Compensator::runs_back(const Path& path) const {
+  if (path.excused) return false;
   if (!path.is_arc) return !still_forward(path);
   if (norm(path.end - path.start) < same_point) return false;
   return sweep_of(path) > path.sweep + std::numbers::pi;

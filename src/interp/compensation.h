@@ -32,8 +32,10 @@ class Compensator {
   void move(BlockRun& run, const PlannedMove& planned);
   /// Emits everything that is held back (G40, program end).
   void flush(BlockRun& run);
-  /// Does the same at G40, unless the last move has no room.
+  /// Does the same where no move follows, unless the last one has no room.
   void finish(BlockRun& run);
+  /// A held move that has no room, which has been told, makes no further errors. False without one.
+  bool excuse_held();
   /// Forgets everything: G41 or G42 was given.
   void start();
 
@@ -47,7 +49,8 @@ class Compensator {
   /// A move of the tool's centre in the plane.
   struct Path {
     bool is_arc = false;
-    bool entry = false;  ///< the move that begins compensation
+    bool entry = false;    ///< the move that begins compensation
+    bool excused = false;  ///< it runs backwards, and that has been told
     Point start, end;
     Point centre;       ///< arcs only
     double radius = 0;  ///< arcs only

@@ -350,6 +350,13 @@ void Interpreter::Impl::execute_words(Block& block, const SuspendedBlock* rest) 
       if (!done_) execute_words(block);
       return;
     }
+    // A move that does not fit between its corners is told once; a G40, M0 or M2 behind it is fine.
+    if (comp_before && std::string_view(run.fault()->kind) == "comp_gouge" &&
+        session_.compensator.excuse_held() && !run.has_axis_words()) {
+      report(*run.fault());
+      if (!done_) execute_words(block, rest);
+      return;
+    }
     if (held_before) release_corner(block);
     if (!follows_from_position(*run.fault(), block)) {
       report(*run.fault());

@@ -208,7 +208,9 @@ std::optional<Excuse> Rules::refused_here() const {
 std::optional<Excuse> Rules::refused_there() const {
   const Rule* rule =
       rule_in(std::begin(refused_there_only), std::end(refused_there_only), reference_.error_text);
-  if (!rule || !(is("refused at another line") || is("only the reference refuses")))
+  // It prints the calls of a refused line up to where it meets the error.
+  const bool in_its_line = is("call");
+  if (!rule || !(in_its_line || is("refused at another line") || is("only the reference refuses")))
     return std::nullopt;
   return Excuse{rule->name, without_refused_line(program_, reference_)};
 }

@@ -76,7 +76,8 @@ void fanuc_orient(const CodeRule&, BlockRun& run) {
 // The end takes back what outlives no program: the frames and the local shift.
 void fanuc_end(const CodeRule& rule, BlockRun& run) {
   ModalState& state = run.state;
-  run.session.compensator.flush(run);
+  run.session.compensator.finish(run);
+  if (!run.ok()) return;
   state.comp = CompState{};
   tell_frames_left_on(rule, run);
   reset_frames(run);

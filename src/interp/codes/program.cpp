@@ -4,7 +4,8 @@
 namespace aircut::interp {
 
 void program_stop(const CodeRule& rule, BlockRun& run) {
-  run.session.compensator.flush(run);  // the machine stands still: no corner is open
+  run.session.compensator.finish(run);  // the machine stands still: no corner is open
+  if (!run.ok()) return;
   if (rule.code == 60) run.emit(canon::PalletChange{});
   run.emit(canon::ProgramStop{rule.code == 1});
 }
@@ -13,7 +14,8 @@ void program_stop(const CodeRule& rule, BlockRun& run) {
 // interp.md 7.
 void program_end(const CodeRule& rule, BlockRun& run) {
   ModalState& state = run.state;
-  run.session.compensator.flush(run);
+  run.session.compensator.finish(run);
+  if (!run.ok()) return;
   state.comp = CompState{};
   if (run.session.options.g54_at_end) {
     run.set_parameter(number::active_system, 1);

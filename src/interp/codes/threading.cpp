@@ -34,6 +34,7 @@ class Thread {
   ModalState& state_;
   AxisValues start_;  // program coordinates
   double x0_ = 0, z0_ = 0, z_end_ = 0;
+  double x_end_ = 0;  // the drive line, or the X word: where the cycle ends
   double pitch_ = 0, peak_ = 0, first_ = 0, full_ = 0, degression_ = 1, tan_q_ = 0, taper_ = 0;
   double sign_ = 1;
   bool taper_in_ = false, taper_out_ = false;
@@ -112,6 +113,8 @@ void Thread::execute() {
   x0_ = start_[Axis::x];
   z0_ = start_[Axis::z];
   z_end_ = *run_.axis(Axis::z) + (state_.incremental ? z0_ : 0);
+  const auto x = run_.axis(Axis::x);
+  x_end_ = !x ? x0_ : *x + (state_.incremental ? x0_ : 0);
   const double tapers = (taper_in_ ? taper_ : 0) + (taper_out_ ? taper_ : 0);
   if (tapers > std::fabs(z_end_ - z0_))
     return run_.error("thread_error", 'E',
@@ -129,7 +132,7 @@ void Thread::execute() {
     pass(depth * state_.unit_mm());
   }
   for (int i = 0; i <= spring_passes_; ++i) pass(full_);
-  rapid(x0_, z_end_, "end");
+  rapid(x_end_, z_end_, "end");
 }
 
 void Thread::pass(double depth) {
