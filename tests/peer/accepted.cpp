@@ -40,6 +40,7 @@ constexpr Rule refused_here_only[] = {
     {"in G93 every G5", "splines without a feed"},
     {"I, the speed factor of the way back", "G33.1 I"},
     {"D, the highest spindle speed, must be above 0", "G96 D0"},
+    {"at the origin the angle is not defined", "a polar hole at the origin"},
     {"G76 moves X and Z only", "G76"},
     {"the tapers of the thread are longer", "G76"},
     {"the distance per revolution, must be above 0", "pitch"},
