@@ -243,6 +243,7 @@ Finding finding_at(Kind kind, const Step& step, double t);
 double fraction_at(const Step& step, double t);
 
 class CuttingCheck;
+class TurningCheck;
 
 /// Drives the machine through segments.
 class Simulator {
@@ -291,7 +292,8 @@ class Simulator {
   Scene scene_;
   JointVector joints_;
   std::vector<std::unique_ptr<Check>> checks_;
-  CuttingCheck* cutting_ = nullptr;  ///< one of them
+  CuttingCheck* cutting_ = nullptr;  ///< one of them, where the spindle turns the tool …
+  TurningCheck* turning_ = nullptr;  ///< … or the work
   std::vector<Observer*> observers_;
   Findings findings_;
   Summary summary_;

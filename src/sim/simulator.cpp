@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "sim/checks/cutting.h"
+#include "sim/checks/turning.h"
 #include "sim/sim.h"
 
 namespace aircut::sim {
@@ -10,7 +11,13 @@ Simulator::Simulator(std::shared_ptr<const machine::Machine> machine, const tool
     : scene_(std::move(machine), tools), joints_(start) {
   if (options.limits) checks_.push_back(make_travel_check());
   if (options.collision) checks_.push_back(make_collision_check(options));
-  if (options.cut) {
+  if (options.cut && turns_the_work(scene_.machine())) {
+    auto turning = std::make_unique<TurningCheck>(options);
+    turning_ = turning.get();
+    checks_.push_back(std::move(turning));
+    const machine::Machine& lathe = scene_.machine();
+    if (lathe.part()) not_checked("the result against the part: a turned stock is not compared");
+  } else if (options.cut) {
     auto cutting = std::make_unique<CuttingCheck>(options);
     cutting_ = cutting.get();
     checks_.push_back(std::move(cutting));
@@ -20,6 +27,7 @@ Simulator::Simulator(std::shared_ptr<const machine::Machine> machine, const tool
 }
 
 std::optional<TriangleMesh> Simulator::part() const {
+  if (turning_) return turning_->part();
   if (!cutting_ || !cutting_->stock()) return std::nullopt;
   return cutting_->stock()->mesh();
 }
@@ -35,6 +43,7 @@ std::vector<double> Simulator::deviation(const TriangleMesh& mesh) const {
 }
 
 Expected<std::unique_ptr<StockHistory>> Simulator::stock_history(double steps) {
+  if (turning_) return turning_->history();
   if (!cutting_ || !cutting_->stock() || !cutting_->tape()) return nullptr;
   return cutting_->tape()->play(*scene_.machine().stock(), steps);
 }

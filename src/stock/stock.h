@@ -248,4 +248,69 @@ struct Arc {
 /// Chords of an arc or helix, at most `deviation` mm from it. `pattern` gives cutter, axis, move.
 std::vector<Piece> arc_pieces(const Arc& arc, const Piece& pattern, double deviation);
 
+// ---- turning: a spinning stock, cut by what does not spin ----
+
+/// A convex section of a tool in the half plane of radius and height: the hull of some discs. An
+/// insert is its nose and the far ends of its edges; a revolved body seen from the side has corners
+/// (discs without radius).
+struct TurningSection {
+  struct Disc {
+    double r = 0, z = 0, radius = 0;
+  };
+  std::vector<Disc> discs;
+};
+
+/// A straight move of a section; r and z of its origin. A radius below 0 is on the other side of
+/// the spindle's axis.
+struct TurningMove {
+  const TurningSection* section = nullptr;  ///< borrowed for the call
+  double r0 = 0, z0 = 0, r1 = 0, z1 = 0;
+};
+
+/// What a turning move would take.
+struct TurningTouch {
+  double depth = 0;     ///< mm, the longest material on one ray
+  double volume = 0;    ///< mm³
+  double r = 0, z = 0;  ///< middle of that longest material
+};
+
+/// The material of a spinning piece: a solid of revolution about Z, held as rays along the radius
+/// and along Z through its section, in whole nanometres. As with Stock, order and repetition of
+/// cuts change nothing.
+class TurnedStock {
+ public:
+  /// A bar or, with a bore, a tube from z = 0 to `length`. Error `stock_shape`, `stock_memory`.
+  static Expected<TurnedStock> make(double radius, double bore, double length, double pitch,
+                                    const StockOptions& options = {});
+
+  /// Takes away what the move sweeps while the stock turns; the volume taken, mm³.
+  double cut(const TurningMove& move);
+  TurningTouch touch(const TurningMove& move) const;
+
+  double pitch() const { return pitch_; }
+  double volume() const;  ///< mm³
+  std::size_t bytes() const;
+  /// Material on the ray at the height nearest to z (at the radius nearest to r), mm.
+  std::vector<std::pair<double, double>> radii_at(double z) const;
+  std::vector<std::pair<double, double>> heights_at(double r) const;
+  /// The outlines of the section, closed loops of (r, z) with the material on the left; straight
+  /// stretches are one piece (off by at most a hundredth of the pitch).
+  std::vector<std::vector<std::pair<double, double>>> outlines() const;
+  /// The surface as a closed mesh; circles are polygons at most `facets` mm inside of them.
+  TriangleMesh mesh(double facets) const;
+  std::string hash() const;
+
+ private:
+  using Nanometres = std::int64_t;
+  using Ray = std::vector<std::pair<Nanometres, Nanometres>>;  ///< material, ascending, apart
+
+  TurnedStock() = default;
+  template <class See>
+  void each_chord(const TurningMove& move, See see) const;
+
+  double pitch_ = 0;
+  std::vector<Ray> along_r_;  ///< at z = (k + ½) pitch
+  std::vector<Ray> along_z_;  ///< at r = (i + ½) pitch
+};
+
 }  // namespace aircut::stock

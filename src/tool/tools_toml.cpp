@@ -211,6 +211,7 @@ void read_offset(Context& context, Lengths& in, Tool& tool) {
 /// A lathe tool: no solid of revolution, so no pieces; the nose circle is its diameter.
 void read_turning(Lengths& in, Tool& tool) {
   tool.diameter = 2 * in.optional("nose_radius", true).value_or(0);
+  tool.flute_length = in.optional("edge_length", false).value_or(0);
   tool.front_angle = in.angle("front_angle", -360, 720).value_or(0);
   tool.back_angle = in.angle("back_angle", -360, 720).value_or(0);
   const auto orientation = in.table().integer("orientation");

@@ -29,17 +29,6 @@ double volume_of(const machine::RawStock& raw) {
   return 0;
 }
 
-// Program time at which the path is done up to `s`.
-double time_at(const Step& step, double s) {
-  const plan::Segment& segment = step.segment;
-  double low = 0, high = segment.duration();
-  for (int i = 0; i < 40 && high - low > 1e-9; ++i) {
-    const double middle = 0.5 * (low + high);
-    (segment.profile.at(middle).s < s ? low : high) = middle;
-  }
-  return segment.t_start + high;
-}
-
 std::string what_happens(Kind kind, const std::string& cutter) {
   switch (kind) {
     case Kind::rapid_cut:

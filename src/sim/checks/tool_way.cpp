@@ -116,6 +116,16 @@ bool turning_axis(const Step& step, const machine::RawStock& stock, const Reach&
 
 }  // namespace
 
+double time_at(const Step& step, double s) {
+  const plan::Segment& segment = step.segment;
+  double low = 0, high = segment.duration();
+  for (int i = 0; i < 40 && high - low > 1e-9; ++i) {
+    const double middle = 0.5 * (low + high);
+    (segment.profile.at(middle).s < s ? low : high) = middle;
+  }
+  return segment.t_start + high;
+}
+
 namespace {
 
 double turn_over(const plan::Path& path) {

@@ -20,6 +20,9 @@ struct Reach {
   double radius = 0, height = 0;
 };
 
+/// Program time at which the step's path is done up to `s` mm.
+double time_at(const Step& step, double s);
+
 /// Does the tool turn over the stock in this step? If not, its moves don't depend on the reach.
 bool turns(const Step& step, const machine::RawStock& stock);
 

@@ -1,0 +1,473 @@
+#include "sim/checks/turning.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+
+#include "sim/checks/cut_tape.h"
+#include "sim/checks/pairs.h"
+
+namespace aircut::sim {
+
+namespace {
+
+constexpr double deepest_touch = 0.01;  // ε_cut, mm
+constexpr double largest_touch = 0.01;  // V_cut, mm³
+constexpr double longest_air = 20;      // mm of a feed move that takes nothing
+constexpr double off_centre = 1e-3;     // mm: height of a tool over the spindle's axis
+constexpr double finer = 5;             // than the lattice of a milled stock: a section is cheap
+constexpr double facets = 0.02;         // mm, of part.stl
+
+// Where the middle of an insert's nose is, seen from the controlled point, in nose radii: X, Z.
+// Orientation 1 to 9 of the tool table.
+constexpr double nose_of[10][2] = {{0, 0},  {1, -1}, {1, 1}, {-1, 1}, {-1, -1},
+                                   {0, -1}, {1, 0},  {0, 1}, {-1, 0}, {0, 0}};
+
+bool takes(const stock::TurningTouch& touch) {
+  return touch.depth > deepest_touch || touch.volume > largest_touch;
+}
+
+// The outline of a solid of revolution from its side, as convex sections that join.
+std::vector<stock::TurningSection> sections_of(const Profile& profile, double axis_r,
+                                               double axis_z) {
+  const auto disc = [&](double r, double z) {
+    return stock::TurningSection::Disc{z * axis_r - r * axis_z, z * axis_z + r * axis_r, 0};
+  };
+  std::vector<stock::TurningSection> out;
+  for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
+    const ProfilePoint &a = profile[i], &b = profile[i + 1];
+    if (b.z <= a.z) continue;
+    out.push_back({{disc(a.r, a.z), disc(-a.r, a.z), disc(b.r, b.z), disc(-b.r, b.z)}});
+  }
+  return out;
+}
+
+std::string what_happens(Kind kind, const std::string& cutter) {
+  if (kind == Kind::rapid_cut) return cutter + " goes through stock during a rapid";
+  if (kind == Kind::spindle_stopped_cut)
+    return cutter + " is fed into stock while the spindle stands";
+  return "the program moves into stock with no tool in the turret";
+}
+
+std::string remedy_of(Kind kind) {
+  if (kind == Kind::rapid_cut)
+    return "retract to a clear radius and height first; if they look right, check work offset and "
+           "tool offsets";
+  if (kind == Kind::spindle_stopped_cut)
+    return "start the spindle (S, M3) before the tool reaches the stock";
+  return "load a tool (T, M6) first";
+}
+
+Diagnostic disk_error(const char* what) {
+  return make_error("output_failed",
+                    std::string(what) + " for the pictures of the stock: " + std::strerror(errno));
+}
+
+}  // namespace
+
+bool turns_the_work(const machine::Machine& machine) {
+  return !machine.kinematics().axes().has(Axis::y) && machine.kinematics().axes().has(Axis::x);
+}
+
+// ---- pictures ----------------------------------------------------------------------------------
+
+class TurningTape {
+ public:
+  struct Record {
+    double t = 0;
+    double at[4] = {};
+    std::uint64_t section = 0;
+  };
+
+  TurningTape()
+      : file_(std::tmpfile(), [](std::FILE* file) {
+          if (file) std::fclose(file);
+        }) {}
+  bool good() const { return file_ != nullptr; }
+
+  bool add(const stock::TurningMove& move, double t) {
+    if (sections_.empty() || last_ != move.section) {
+      sections_.push_back(*move.section);
+      last_ = move.section;
+    }
+    const Record record{t, {move.r0, move.z0, move.r1, move.z1}, sections_.size() - 1};
+    return std::fwrite(&record, sizeof record, 1, file_.get()) == 1;
+  }
+  /// The tool changes: its sections are no longer there.
+  void forget() { last_ = nullptr; }
+
+  std::shared_ptr<std::FILE> file() const { return file_; }
+  const std::vector<stock::TurningSection>& sections() const { return sections_; }
+
+ private:
+  std::shared_ptr<std::FILE> file_;
+  std::vector<stock::TurningSection> sections_;
+  const stock::TurningSection* last_ = nullptr;
+};
+
+namespace {
+
+class TurningPlayer final : public StockHistory {
+ public:
+  TurningPlayer(std::shared_ptr<std::FILE> file, std::vector<stock::TurningSection> sections,
+                stock::TurnedStock stock)
+      : file_(std::move(file)), sections_(std::move(sections)), stock_(std::move(stock)) {
+    more_ = read();
+  }
+
+  Expected<std::shared_ptr<const TriangleMesh>> at(double t) override {
+    for (; more_ && next_.t <= t; more_ = read()) {
+      stock_.cut({&sections_[next_.section], next_.at[0], next_.at[1], next_.at[2], next_.at[3]});
+      mesh_ = nullptr;
+    }
+    if (std::ferror(file_.get()) != 0) return unexpected(disk_error("can't read a temporary file"));
+    if (!mesh_) mesh_ = std::make_shared<TriangleMesh>(stock_.mesh(facets));
+    return mesh_;
+  }
+
+ private:
+  bool read() { return std::fread(&next_, sizeof next_, 1, file_.get()) == 1; }
+
+  std::shared_ptr<std::FILE> file_;
+  std::vector<stock::TurningSection> sections_;
+  stock::TurnedStock stock_;
+  TurningTape::Record next_;
+  bool more_ = false;
+  std::shared_ptr<const TriangleMesh> mesh_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<StockHistory>> TurningCheck::history() {
+  if (!tape_ || !stock()) return nullptr;
+  std::FILE* file = tape_->file().get();
+  if (std::fflush(file) != 0 || std::fseek(file, 0, SEEK_SET) != 0)
+    return unexpected(disk_error("can't read a temporary file"));
+  auto raw =
+      stock::TurnedStock::make(raw_->diameter / 2, raw_->bore / 2, raw_->height, stock_->pitch());
+  if (!raw) return unexpected(raw.error());
+  return std::make_unique<TurningPlayer>(tape_->file(), tape_->sections(), std::move(*raw));
+}
+
+// ---- set-up ------------------------------------------------------------------------------------
+
+TurningCheck::TurningCheck(const CheckOptions& options) : options_(options) {}
+TurningCheck::~TurningCheck() = default;
+
+const stock::TurnedStock* TurningCheck::stock() const {
+  return stock_ && given_up_.empty() ? &*stock_ : nullptr;
+}
+
+std::optional<TriangleMesh> TurningCheck::part() const {
+  if (!stock()) return std::nullopt;
+  return stock()->mesh(facets);
+}
+
+std::string TurningCheck::read_frame(const machine::Machine& machine) {
+  if (raw_->shape != machine::StockShape::cylinder)
+    return "on a machine whose spindle turns the work the stock must be a cylinder or a tube";
+  const Pose X_SM = raw_->X_LS.inverse(Eigen::Isometry) * machine.X_LM();
+  const Vec3 axis = X_SM.linear() * Vec3::UnitZ(), origin = X_SM.translation();
+  if (raw_->link != machine.work_link() || axis.z() < 1 - 1e-9 ||
+      std::hypot(origin.x(), origin.y()) > 1e-6)
+    return "the stock does not stand on the axis of the spindle that turns it (X 0, Y 0)";
+  across_ = X_SM.linear() * Vec3::UnitX();
+  side_ = X_SM.linear() * Vec3::UnitY();
+  return {};
+}
+
+void TurningCheck::start(const Scene& scene, const JointVector&, Findings&) {
+  raw_ = scene.machine().stock();
+  if (!raw_) return;
+  if (auto why = read_frame(scene.machine()); !why.empty()) return give_up(why);
+  const double pitch = raw_->pitch.value_or(default_pitch(*raw_) / finer);
+  auto made = stock::TurnedStock::make(raw_->diameter / 2, raw_->bore / 2, raw_->height, pitch);
+  if (!made) return give_up(made.error().message);
+  stock_ = std::move(*made);
+  initial_volume_ = stock_->volume();
+  tolerance_ = std::min(pitch / 10, 0.01);
+  if (options_.keep_cuts) {
+    tape_ = std::make_unique<TurningTape>();
+    if (!tape_->good()) give_up(disk_error("can't make a temporary file").message);
+  }
+}
+
+void TurningCheck::scene_changed(const Step& step, const JointVector&, Findings& out) {
+  tool_read_ = false;
+  tell_given_up(step, out);
+}
+
+// An insert: nose and edges. The edges look along (sin a, cos a) in (X, Z), a being the angle of
+// the table, and touch the nose from outside.
+std::string TurningCheck::read_insert(const tool::Tool& tool) {
+  const double radius = tool.diameter / 2, edge = tool.flute_length;
+  const std::string name = "tool T" + std::to_string(tool.number);
+  if (!(edge > 0)) return name + " has no edge_length, so its insert has no shape";
+  if (tool.orientation < 1 || tool.orientation > 9)
+    return name + " has no orientation, so it is not known where its nose is";
+  const double x = nose_of[tool.orientation][0] * radius, z = nose_of[tool.orientation][1] * radius;
+  stock::TurningSection section;
+  section.discs.push_back({x, z, radius});
+  const double middle = (tool.front_angle + tool.back_angle) / 2;
+  const double wedge = std::abs(tool.front_angle - tool.back_angle);
+  if (!(wedge > 0 && wedge < M_PI)) return name + " needs a front and a back angle of its edges";
+  if (tool.orientation < 9 && std::sin(middle) * x + std::cos(middle) * z < -1e-9)
+    return name + " has edges on the other side of its nose than its orientation says";
+  for (const double angle : {tool.front_angle, tool.back_angle}) {
+    // Outwards from the wedge.
+    const double out = angle < middle ? -1 : 1;
+    section.discs.push_back({x + edge * std::sin(angle) + out * radius * std::cos(angle),
+                             z + edge * std::cos(angle) - out * radius * std::sin(angle), 0});
+  }
+  cutters_.push_back(
+      {"T" + std::to_string(tool.number) + "/insert", machine::Role::cutter, {std::move(section)}});
+  tip_ = -tool.offset[Axis::x] * across_ - tool.offset[Axis::z] * Vec3::UnitZ();
+  return {};
+}
+
+std::string TurningCheck::read_tool(const Scene& scene, const Vec3& axis) {
+  cutters_.clear();
+  others_.clear();
+  if (tape_) tape_->forget();
+  tip_ = Vec3::Zero();
+  reach_ = {};
+  const tool::Tool* tool = scene.tool();
+  no_tool_ = tool == nullptr;
+  if (no_tool_) {
+    cutters_.push_back({"spindle", machine::Role::cutter, {{{{0, 0, 0.5}}}}});
+    return {};
+  }
+  if (tool->pieces.empty()) return read_insert(*tool);
+  if (std::abs(axis.dot(side_)) > 1e-6) return "the tool's axis is not in the plane of X and Z";
+  for (const tool::Piece& piece : tool->pieces) {
+    const bool cuts = piece.role == tool::PieceRole::cutter;
+    const machine::Role role = cuts                                   ? machine::Role::cutter
+                               : piece.role == tool::PieceRole::shank ? machine::Role::shank
+                                                                      : machine::Role::holder;
+    (cuts ? cutters_ : others_)
+        .push_back({"T" + std::to_string(tool->number) + "/" + piece.name, role,
+                    sections_of(piece.profile, axis.dot(across_), axis.z())});
+    for (const ProfilePoint& p : piece.profile) {
+      reach_.radius = std::max(reach_.radius, p.r);
+      reach_.height = std::max(reach_.height, p.z);
+    }
+  }
+  return {};
+}
+
+void TurningCheck::give_up(const std::string& why) {
+  if (given_up_.empty()) given_up_ = why;
+}
+
+void TurningCheck::tell_given_up(const Step& step, Findings& out) {
+  if (given_up_.empty() || told_ || !raw_) return;
+  told_ = true;
+  Finding f = finding_at(Kind::not_checked, step, step.segment.t_start);
+  f.message = "from here on it is not known what is left of the stock: " + given_up_;
+  f.makes_unknown = true;
+  out.add(f);
+}
+
+// ---- moves -------------------------------------------------------------------------------------
+
+stock::TurningMove TurningCheck::in_plane(const stock::TurningSection& section,
+                                          const StraightMove& move, double part) const {
+  const Vec3 from = move.from + tip_, to = from + part * (move.to - move.from);
+  return {&section, from.dot(across_), from.z(), to.dot(across_), to.z()};
+}
+
+stock::TurningTouch TurningCheck::touch(const Solid& solid, const StraightMove& move,
+                                        double part) const {
+  stock::TurningTouch out;
+  for (const stock::TurningSection& section : solid.sections) {
+    const stock::TurningTouch here = stock_->touch(in_plane(section, move, part));
+    const double volume = out.volume + here.volume;
+    if (here.depth > out.depth) out = here;
+    out.volume = volume;
+  }
+  return out;
+}
+
+double TurningCheck::cut(const Step& step, const Solid& solid, const StraightMove& move) {
+  double volume = 0;
+  for (const stock::TurningSection& section : solid.sections) {
+    const stock::TurningMove here = in_plane(section, move);
+    const double taken = stock_->cut(here);
+    volume += taken;
+    if (taken > 0 && tape_ && !tape_->add(here, time_at(step, move.s1)))
+      give_up(disk_error("can't write a temporary file").message);
+  }
+  return volume;
+}
+
+std::optional<Kind> TurningCheck::forbidden(const Step& step) const {
+  const plan::Segment& segment = step.segment;
+  if (no_tool_) return Kind::no_tool_cut;
+  if (!segment.rounds_feed &&
+      (std::holds_alternative<canon::Rapid>(segment.command.action) ||
+       segment.kind == plan::MotionKind::rapid || segment.kind == plan::MotionKind::tool_change))
+    return Kind::rapid_cut;
+  if (segment.spindle_rpm == 0) return Kind::spindle_stopped_cut;
+  return std::nullopt;
+}
+
+void TurningCheck::step(const Step& step, Findings& out) {
+  if (!raw_) return;
+  if (!given_up_.empty()) return tell_given_up(step, out);
+  if (std::holds_alternative<plan::Hold>(step.segment.path)) return;
+  if (std::holds_alternative<canon::Probe>(step.segment.command.action)) return;
+  moves_.clear();
+  rows_.clear();
+  // A thread is no body of revolution: the bar stays as it is under it.
+  if (step.segment.sync) return;
+  if (!straight_moves(step, *raw_, reach_, tolerance_, moves_)) {
+    give_up("the way of the tool over the stock can't be told");
+    return tell_given_up(step, out);
+  }
+  if (moves_.empty()) return;
+  if (!tool_read_) tool_problem_ = read_tool(step.scene, moves_.front().axis);
+  tool_read_ = true;
+  look_at(step, out);
+  for (Finding& f : rows_) {
+    if (f.value && f.kind != Kind::no_tool_cut)
+      f.message += ": " + fixed(*f.value, *f.value < 10 ? 2 : 0) + " mm³ in its way";
+    out.add(std::move(f));
+  }
+}
+
+void TurningCheck::look_at(const Step& step, Findings& out) {
+  const std::optional<Kind> kind = forbidden(step);
+  if (!tool_problem_.empty()) {
+    if (kind == Kind::rapid_cut || kind == Kind::spindle_stopped_cut) return;
+    give_up(tool_problem_);
+    return tell_given_up(step, out);
+  }
+  double volume = 0;
+  for (const StraightMove& move : moves_) {
+    if (std::abs((move.from + tip_).dot(side_)) > off_centre ||
+        std::abs((move.to + tip_).dot(side_)) > off_centre) {
+      give_up("the tool is not at the height of the spindle's axis");
+      return tell_given_up(step, out);
+    }
+    const bool rises = (move.to - move.from).dot(move.axis) > 0;
+    if (rises)
+      for (const Solid& solid : others_) ask(step, move, solid);
+    for (const Solid& solid : cutters_) {
+      if (kind)
+        cutter_may_not(step, move, solid, *kind);
+      else
+        volume += cut(step, solid, move);
+    }
+    if (!rises)
+      for (const Solid& solid : others_) ask(step, move, solid);
+    if (!given_up_.empty()) return tell_given_up(step, out);
+  }
+  const double length = plan::length(step.segment.path);
+  if (kind || volume > 0 || length <= longest_air) return;
+  Finding f = finding_at(Kind::air_cut, step, step.segment.t_start);
+  f.t_end = step.segment.t_end();
+  f.u_first = fraction_at(step, f.t_first);
+  f.u_end = fraction_at(step, f.t_end);
+  f.message = "this feed move of " + fixed(length, 1) + " mm takes no material";
+  f.value = length;
+  f.limit = longest_air;
+  f.unit = "mm";
+  out.add(f);
+}
+
+void TurningCheck::cutter_may_not(const Step& step, const StraightMove& move, const Solid& solid,
+                                  Kind kind) {
+  const stock::TurningTouch here = touch(solid, move);
+  if (!takes(here)) return;
+  Finding f = row(kind, step, move, solid, here);
+  f.message = what_happens(kind, "cutter `" + solid.name + "`");
+  f.remedy = remedy_of(kind);
+  f.depth_bound = stock_->pitch() / 2;
+  f.unit = "mm3";
+  f.value = 0;
+  tell(std::move(f), here);
+  if (kind != Kind::no_tool_cut) cut(step, solid, move);
+}
+
+// Shank or holder: clear when it would be even if it were larger by half a pitch on all sides.
+bool TurningCheck::ask(const Step& step, const StraightMove& move, const Solid& solid) {
+  Solid wide = solid;
+  for (stock::TurningSection& section : wide.sections)
+    for (auto& disc : section.discs) disc.radius += stock_->pitch() / 2;
+  if (touch(wide, move).depth == 0) return true;
+  const stock::TurningTouch here = touch(solid, move);
+  const bool hit = takes(here);
+  Finding f = row(hit ? Kind::collision : Kind::near_miss, step, move, hit ? solid : wide,
+                  hit ? here : touch(wide, move));
+  const std::string who =
+      (solid.role == machine::Role::shank ? "tool shank `" : "tool holder `") + solid.name + "`";
+  if (hit) {
+    f.message = who + " runs into stock that the cutter leaves standing";
+    f.depth_bound = stock_->pitch() / 2;
+    f.remedy = "use a longer stick-out, or clear the material beside it first";
+  } else {
+    f.message = who + " may touch stock: neither contact nor clearance could be proven with a " +
+                shortest(stock_->pitch()) + " mm lattice";
+    f.remedy = "a smaller [stock] pitch in the set-up decides it";
+    f.unresolved = f.makes_unknown = true;
+  }
+  tell(std::move(f), here);
+  return false;
+}
+
+void TurningCheck::tell(Finding f, const stock::TurningTouch& touch) {
+  auto at = std::find_if(rows_.begin(), rows_.end(), [&](const Finding& other) {
+    return other.kind == f.kind && other.body_a == f.body_a;
+  });
+  if (at == rows_.end()) {
+    at = rows_.insert(at, std::move(f));
+  } else {
+    at->t_end = f.t_end;
+    at->u_end = f.u_end;
+  }
+  if (at->value) *at->value += touch.volume;
+  if (!at->unresolved) at->depth = std::max(at->depth.value_or(0), touch.depth);
+}
+
+Finding TurningCheck::row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
+                          const stock::TurningTouch& touch_) const {
+  // The first fraction of the move that takes something, by halving.
+  double low = 0, part = 1;
+  for (int i = 0; i < 12; ++i) {
+    const double middle = 0.5 * (low + part);
+    (takes(touch(solid, move, middle)) ? part : low) = middle;
+  }
+  Finding f = finding_at(kind, step, time_at(step, move.s0 + part * (move.s1 - move.s0)));
+  f.t_end = std::max(f.t_first, time_at(step, move.s1));
+  f.u_first = fraction_at(step, f.t_first);
+  f.u_end = fraction_at(step, f.t_end);
+  f.body_a = solid.name;
+  f.body_b = "stock";
+  f.pair = std::string(machine::to_string(solid.role)) + "-stock";
+  if (f.joints_first.size() > 0) {
+    machine::LinkPoses poses;
+    machine::forward(step.scene.machine(), f.joints_first, poses);
+    f.points = {poses.X_WL[static_cast<std::size_t>(machine::index(raw_->link))] * raw_->X_LS *
+                Vec3(touch_.r * across_ + touch_.z * Vec3::UnitZ())};
+  }
+  return f;
+}
+
+void TurningCheck::finish(Summary& summary, Findings&) {
+  if (!raw_) return;
+  if (!stock()) {
+    if (!told_) summary.unchecked.push_back("what the tools take from the stock: " + given_up_);
+    return;
+  }
+  Summary::Stock s;
+  s.pitch = stock_->pitch();
+  s.sweep_bound = tolerance_;
+  s.initial_volume = initial_volume_;
+  s.volume = stock_->volume();
+  s.bytes = stock_->bytes();
+  summary.stock = s;
+}
+
+}  // namespace aircut::sim

@@ -1,0 +1,83 @@
+// Private: tools against a stock that the spindle turns (docs/cutting.md): machines without a Y
+// axis. The stock is a round bar or tube about the spindle's axis, the Z axis of M.
+//
+// Everything happens in the half plane through that axis in which the tool moves. A revolved tool
+// (drill, bar) is seen from its side, an insert is its nose and its two edges. What such a section
+// sweeps while the stock turns is gone at that radius and height, all around.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "sim/checks/tool_way.h"
+#include "sim/sim.h"
+#include "stock/stock.h"
+
+namespace aircut::sim {
+
+/// All moves that have cut, on disk, so that the stock can be shown as it was.
+class TurningTape;
+
+class TurningCheck final : public Check {
+ public:
+  explicit TurningCheck(const CheckOptions& options);
+  ~TurningCheck() override;
+
+  void start(const Scene& scene, const JointVector& joints, Findings& out) override;
+  void step(const Step& step, Findings& out) override;
+  void scene_changed(const Step& step, const JointVector& joints, Findings& out) override;
+  void finish(Summary& summary, Findings& out) override;
+
+  /// Null when there is none, or not all that was cut is known.
+  const stock::TurnedStock* stock() const;
+  /// Its surface in the stock's frame.
+  std::optional<TriangleMesh> part() const;
+  Expected<std::unique_ptr<StockHistory>> history();
+
+ private:
+  /// A piece of the tool in the half plane, its origin where the moves lead.
+  struct Solid {
+    std::string name;
+    machine::Role role;
+    std::vector<stock::TurningSection> sections;
+  };
+  /// Why the set-up or the tool can't be turned with; empty: it can.
+  std::string read_frame(const machine::Machine& machine);
+  std::string read_tool(const Scene& scene, const Vec3& axis);
+  std::string read_insert(const tool::Tool& tool);
+  std::optional<Kind> forbidden(const Step& step) const;
+  void look_at(const Step& step, Findings& out);
+  bool ask(const Step& step, const StraightMove& move, const Solid& solid);
+  void cutter_may_not(const Step& step, const StraightMove& move, const Solid& solid, Kind kind);
+  stock::TurningMove in_plane(const stock::TurningSection& section, const StraightMove& move,
+                              double part = 1) const;
+  stock::TurningTouch touch(const Solid& solid, const StraightMove& move, double part = 1) const;
+  double cut(const Step& step, const Solid& solid, const StraightMove& move);
+  Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
+              const stock::TurningTouch& touch) const;
+  void tell(Finding row, const stock::TurningTouch& touch);
+  void give_up(const std::string& why);
+  void tell_given_up(const Step& step, Findings& out);
+
+  CheckOptions options_;
+  std::optional<machine::RawStock> raw_;
+  std::optional<stock::TurnedStock> stock_;
+  std::unique_ptr<TurningTape> tape_;
+  double initial_volume_ = 0, tolerance_ = 0;           ///< mm³, mm
+  Vec3 across_ = Vec3::UnitX(), side_ = Vec3::UnitY();  ///< of the half plane; seen from S
+  std::vector<Solid> cutters_, others_;
+  Vec3 tip_ = Vec3::Zero();  ///< of the sections' origin, seen from the tip of the moves; S
+  bool tool_read_ = false, no_tool_ = true;
+  std::string tool_problem_;  ///< why it can't be cut with
+  Reach reach_;
+  std::vector<StraightMove> moves_;  ///< of the step at hand
+  std::vector<Finding> rows_;        ///< likewise
+  std::string given_up_;
+  bool told_ = false;
+};
+
+/// Whether the machine's spindle turns the work and not the tool.
+bool turns_the_work(const machine::Machine& machine);
+
+}  // namespace aircut::sim
