@@ -268,3 +268,10 @@ module control_panel(arm = 300) {
   block_at([-40, 40, 40], [40, 120, 120], 6);
   block_at([-30, 100, 50], [30, 100 + arm, 110], 6);
 }
+
+// Holder behind a turret's housing for a tool that looks away from the chuck: its gauge face is
+// x = g + 404, on the spindle's axis with the X slide at zero.
+module back_tool(g) {
+  block_at([g + 330, -32, -32], [g + 394, 130, 32], 5);
+  translate([g + 392, 0, 0]) rotate([0, 90, 0]) turned([[0, 0], [25, 0], [25, 9], [22, 12], [0, 12]], $fn = 32);
+}

@@ -112,9 +112,12 @@ bool carries(const Machine& machine, machine::LinkId link, machine::LinkId end) 
 // that comes to meet it or that it swivels to: of such a pair nothing is promised but at home. (The
 // program decides; that is what runs are checked for.)
 bool work_against_tool(const Machine& machine, const Body& a, const Body& b) {
+  // A link on the way to the end, or behind it.
+  const auto side_of = [&](LinkId end, const Body& body) {
+    return carries(machine, body.link, end) || carries(machine, end, body.link);
+  };
   const auto spindle = machine.spindle().link, work = machine.work_link();
-  return (carries(machine, a.link, spindle) && carries(machine, b.link, work)) ||
-         (carries(machine, b.link, spindle) && carries(machine, a.link, work));
+  return (side_of(spindle, a) && side_of(work, b)) || (side_of(spindle, b) && side_of(work, a));
 }
 
 bool may_meet(const Machine& machine) {
@@ -134,7 +137,9 @@ void expect_bodies_apart(const Machine& machine) {
   LinkPoses poses;
   std::set<std::string> told;
   // An arm reaches its own pedestal and the table; apart at home is all that can be promised.
-  const int positions = machine.kinematics().type().starts_with("robot") ? 1 : 2000;
+  const int positions = machine.kinematics().type().starts_with("robot") ? 1
+                        : machine.channels().empty()                     ? 2000
+                                                                         : 500;
   for (int k = 0; k < positions; ++k) {
     const JointVector joints = k == 0 ? machine.home() : somewhere(machine, random);
     machine::forward(machine, joints, poses);

@@ -1,0 +1,4 @@
+// Left Z slide.
+include <params.scad>
+
+carriage(gauge);

@@ -1,0 +1,4 @@
+// Left three-jaw chuck.
+include <params.scad>
+
+chuck();

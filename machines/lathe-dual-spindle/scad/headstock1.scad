@@ -1,0 +1,4 @@
+// Left headstock.
+include <params.scad>
+
+headstock(-520, -130);

@@ -1,0 +1,4 @@
+// Right headstock.
+include <params.scad>
+
+mirror([1, 0, 0]) headstock(-520, -130);

@@ -1,0 +1,4 @@
+// Left main motor and the guard of its belt.
+include <params.scad>
+
+main_drive(-500, -180);

@@ -1,0 +1,4 @@
+// Left turret housing, which swivels.
+include <params.scad>
+
+swivel_turret(gauge);

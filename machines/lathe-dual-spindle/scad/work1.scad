@@ -1,0 +1,4 @@
+// Bar in the left chuck. Only for pictures.
+include <params.scad>
+
+bar();

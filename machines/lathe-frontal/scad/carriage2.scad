@@ -1,0 +1,4 @@
+// Right Z slide.
+include <params.scad>
+
+carriage(gauge);

@@ -1,0 +1,4 @@
+// Left headstock.
+include <params.scad>
+
+mirror([0, 1, 0]) headstock(-520, -130);

@@ -1,0 +1,4 @@
+// Right headstock.
+include <params.scad>
+
+headstock(-520, -130);

@@ -1,0 +1,4 @@
+// Left main motor and the guard of its belt.
+include <params.scad>
+
+mirror([0, 1, 0]) main_drive(-500, -180);

@@ -1,0 +1,4 @@
+// Right main motor and the guard of its belt.
+include <params.scad>
+
+main_drive(-500, -180);

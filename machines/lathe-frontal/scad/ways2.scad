@@ -1,0 +1,4 @@
+// Right half: rails of the Z slide.
+include <params.scad>
+
+ways(40, 830);

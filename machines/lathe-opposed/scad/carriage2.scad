@@ -1,0 +1,4 @@
+// Lower Z slide.
+include <params.scad>
+
+mirror([0, 1, 0]) carriage(gauge, inner, 730, [200, 560]);

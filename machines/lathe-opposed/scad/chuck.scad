@@ -1,0 +1,4 @@
+// Three-jaw chuck of the main spindle.
+include <params.scad>
+
+chuck();

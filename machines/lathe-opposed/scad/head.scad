@@ -1,0 +1,4 @@
+// Milling head, swivelled by A.
+include <params.scad>
+
+milling_head(gauge);

@@ -1,0 +1,4 @@
+// Main headstock.
+include <params.scad>
+
+headstock(-520, -130);

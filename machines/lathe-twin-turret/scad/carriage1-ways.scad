@@ -1,0 +1,4 @@
+// Rails of the upper X slide.
+include <params.scad>
+
+carriage_ways(gauge);

@@ -1,0 +1,4 @@
+// Three-jaw chuck of 210.
+include <params.scad>
+
+chuck();
