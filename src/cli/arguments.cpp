@@ -333,6 +333,11 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
                   "a kinematics without a package, by the `type` of its machine.toml")
         ->type_name("NAME")
         ->excludes("-m");
+    c->add_option("--kinstype", kin.kinstype,
+                  "which of the machine's kinematics, by the number of its channel from 0 on")
+        ->check(CLI::Range(0, 99).description(""))
+        ->needs("-m")
+        ->type_name("N");
     c->add_option("--param", kin.parameters,
                   "a parameter of --type, as in machine.toml (repeatable)")
         ->type_name("KEY=VALUE")

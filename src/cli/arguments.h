@@ -88,6 +88,7 @@ struct MachineArguments {
 struct KinArguments {
   enum class Action { fk, ik, jac, sweep, rot } action = Action::ik;
   std::string machine;
+  std::optional<int> kinstype;          ///< number of the machine's channel
   std::string type;                     ///< instead of a machine: a kinematics alone
   std::vector<std::string> parameters;  ///< of the type: `radius=120`
   std::vector<std::string> ranges;      ///< sweep: `X=0:500:50`

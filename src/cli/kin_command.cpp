@@ -156,6 +156,7 @@ bool open_kinematics(Job& job, const KinArguments& a) {
   if (a.type.empty()) {
     ProgramArguments inputs;
     inputs.machine = a.machine;
+    if (a.kinstype) inputs.machine += ":" + std::to_string(*a.kinstype);
     return open_inputs(job, inputs);
   }
   auto machine = machine::bare_machine(a.type, a.parameters, job.sources, job.diagnostics);

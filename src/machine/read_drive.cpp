@@ -234,7 +234,7 @@ std::vector<Drive> read_drives(config::Table& top, const std::string& channel, R
   if (!top.has("channel")) {
     top.know("drive");
     if (top.has("drive")) top.error("drive", "there is no [[channel]] that could be driven");
-    if (!channel.empty())
+    if (!channel.empty() && channel != "0")
       top.report(make_error("input", "the machine '" + machine.name() +
                                          "' has no channels, so there is no '" +
                                          printable(channel) + "' to drive"));

@@ -86,7 +86,52 @@ TEST_F(KinTypes, ANewPackageIsRunAtOnce) {
   const Outcome bad = run("machine new --formula 'R(MS)-O-T(QQ)' other");
   EXPECT_EQ(bad.code, 2);
   EXPECT_NE(bad.err.find(":1:11"), std::string::npos) << bad.err;
+  const Outcome two_beds = run("machine new --formula 'R(MS:C)-O-T(LS:Z)-O-T(TS:X)' other");
+  EXPECT_EQ(two_beds.code, 2);
+  EXPECT_NE(two_beds.err.find(":1:19"), std::string::npos) << two_beds.err;
+  EXPECT_NE(two_beds.err.find("O stands twice"), std::string::npos) << two_beds.err;
   EXPECT_FALSE(fs::exists(folder_ / "other"));
+}
+
+TEST_F(KinTypes, AChannelIsTakenByNameOrByNumber) {
+  // mill-turn: gauge point at Z870 with the joint Z at zero; joints Z X Y B C and Z X.
+  const auto mill = rows_of(kin("ik -m mill-turn --kinstype 0", "100 0 200 0 0\n").out).at(0);
+  ASSERT_EQ(mill.size(), 5u);
+  EXPECT_NEAR(mill[0], -670, 1e-9);
+  EXPECT_NEAR(mill[1], 100, 1e-9);
+  EXPECT_EQ(kin("ik -m mill-turn --kinstype 1", "100 200\n").out, "-670 100\n");
+  EXPECT_EQ(kin("ik -m mill-turn:turn", "X100 Z200\n").out, "-670 100\n");
+  EXPECT_EQ(kin("ik -m mill3 --kinstype 0", "1 2 -3\n").out, "1 2 -3\n");
+  const Outcome far = kin("ik -m mill-turn --kinstype 2", "1 2\n");
+  EXPECT_EQ(far.code, 2);
+  EXPECT_NE(far.err.find("there is no channel '2'"), std::string::npos) << far.err;
+  const Outcome none = kin("ik -m mill3 --kinstype 1", "1 2 3\n");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("has no channels"), std::string::npos) << none.err;
+  const Outcome wrong = kin("ik -m mill-turn:tunr", "1 2\n");
+  EXPECT_NE(wrong.err.find("Did you mean 'turn'?"), std::string::npos) << wrong.err;
+}
+
+// With the tool centre point control off the tip leaves the place that it keeps with it on.
+TEST_F(KinTypes, ToolCentrePointControlIsAChannelOfItsOwn) {
+  const std::string joints = "5 6 -50 -20 90\n";
+  const auto tcp = rows_of(kin("fk -m mill5-ac:tcp", joints).out).at(0);
+  const auto off = rows_of(kin("fk -m mill5-ac:joints", joints).out).at(0);
+  EXPECT_EQ(off, (std::vector<double>{5, 6, 350, -20, 90}));
+  EXPECT_GT(std::hypot(tcp[0] - off[0], tcp[1] - off[1]), 100);
+}
+
+TEST_F(KinTypes, BodiesThatOverlapAtHomeAreFound) {
+  ASSERT_EQ(run("machine new --formula 'R(MS:C)-O-T(LS:Z)-T(TS:X)' lathe").code, 0);
+  const std::string toml = text_of("lathe/machine.toml");
+  // The turret is at X 200 there.
+  write("lathe/machine.toml", toml +
+                                  "\n[[body]]\nname = \"block\"\nlink = \"bed\"\n"
+                                  "mesh = \"meshes/turret.stl\"\npose = [190, 7, 9]\n");
+  const Outcome r = run("machine check ./lathe");
+  EXPECT_EQ(r.code, 1) << r.out;
+  EXPECT_NE(r.out.find("`block`"), std::string::npos) << r.out;
+  EXPECT_NE(r.out.find("`turret`"), std::string::npos) << r.out;
 }
 
 /// Packages written here take their meshes from a new one.

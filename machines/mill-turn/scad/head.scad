@@ -1,0 +1,4 @@
+// Milling and turning head, swivelled by B.
+include <params.scad>
+
+milling_head(gauge);

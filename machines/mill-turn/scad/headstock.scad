@@ -1,0 +1,4 @@
+// Headstock.
+include <params.scad>
+
+headstock(-560, -130);
