@@ -129,7 +129,12 @@ BENCHMARK_CAPTURE(Inverse, ox_glide_crossed, "ox-glide-crossed");
 BENCHMARK_CAPTURE(LinkPosesOf, mill3, "mill3");
 BENCHMARK_CAPTURE(LinkPosesOf, ox_glide_crossed, "ox-glide-crossed");
 BENCHMARK_CAPTURE(Inverse, mill5_ac, "mill5-ac");
+BENCHMARK_CAPTURE(Inverse, mill6_head_table, "mill6-head-table");
+BENCHMARK_CAPTURE(Inverse, lathe_slant, "lathe-slant");
 BENCHMARK_CAPTURE(Inverse, lola50_6r, "lola50-6r");
+BENCHMARK_CAPTURE(Inverse, lola50_horizontal, "lola50-horizontal");
+BENCHMARK_CAPTURE(Inverse, lola50_vertical, "lola50-vertical");
+BENCHMARK_CAPTURE(LinkPosesOf, lathe_opposed, "lathe-opposed");
 
 const int registered = [] {
   static constexpr Type types[] = {{"calibrated", 0, 0, 0, 0, 0},

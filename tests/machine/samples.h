@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -258,6 +259,12 @@ inline std::vector<Sample> samples() {
   const std::vector<Sample> more = catalogue();
   all.insert(all.end(), more.begin(), more.end());
   return all;
+}
+
+/// How many poses a round trip tries: `fast`, or AIRCUT_ROUND_TRIPS in the slow suite.
+inline int round_trips(int fast) {
+  const char* text = std::getenv("AIRCUT_ROUND_TRIPS");
+  return text ? std::max(fast, std::atoi(text)) : fast;
 }
 
 inline AxisValues random_tip(const Sample& sample, Random& random) {

@@ -31,8 +31,8 @@ struct DeltaRotary : BasicModel {
   int passive_count() const { return 3; }
 
   static Vec3 outwards(std::size_t arm) {
-    const double azimuth = (-90 + 120.0 * static_cast<double>(arm)) * std::numbers::pi / 180;
-    return {std::cos(azimuth), std::sin(azimuth), 0};
+    constexpr double c30 = std::numbers::sqrt3 / 2;
+    return arm == 0 ? Vec3(0, -1, 0) : Vec3(arm == 1 ? c30 : -c30, 0.5, 0);
   }
 
   template <class T>
@@ -62,6 +62,14 @@ struct DeltaRotary : BasicModel {
     return {T(out.x()) * reach, T(out.y()) * reach, T(-thigh) * sin(angle)};
   }
 
+  // The same without the angle: cos θ = (K r − d z)/h², sin θ = −(K z + d r)/h², d = √(h² − K²).
+  Vector<double> centre(std::size_t i, const Arm<double>& a) const {
+    const double d = std::sqrt((a.h - a.K) * (a.h + a.K)), h2 = a.h * a.h;
+    const Vec3 out = outwards(i);
+    const double reach = hip - foot + thigh * (a.K * a.r - d * a.z) / h2;
+    return {out.x() * reach, out.y() * reach, thigh * (a.K * a.z + d * a.r) / h2};
+  }
+
   template <class T>
   std::array<T, joints + passives + guards> solve(const PoseWords<T>& tip, const Vec3& tool,
                                                   int) const {
@@ -75,10 +83,12 @@ struct DeltaRotary : BasicModel {
     for (std::size_t i = 0; i < 3; ++i) {
       const Arm<T> a = arm(i, P);
       q[i] = atan2(-a.z, a.r) - acos(a.K / a.h);
-      centres[i] = centre(i, q[i]);
       q[joints + i] = P[i];
+      if constexpr (!std::is_same_v<T, double>) centres[i] = centre(i, q[i]);
     }
-    q[joints + passives] = sqrt(root_guard(centres, P, -1));
+    // The guard is there for travel bounds; for plain numbers why_not() has looked at the root.
+    if constexpr (!std::is_same_v<T, double>)
+      q[joints + passives] = sqrt(root_guard(centres, P, -1));
     return q;
   }
 
@@ -96,7 +106,7 @@ struct DeltaRotary : BasicModel {
         return name + " is folded: the foot is " + fixed(-a.h - a.K, 3) + " mm too near to the hip";
       if (!((a.h - a.K) * (a.h + a.K) > 1e-9))
         return name + " is stretched, where it would need an infinite speed (a singular pose)";
-      centres[i] = centre(i, -std::atan2(a.z, a.r) - std::acos(a.K / a.h));
+      centres[i] = centre(i, a);
     }
     return why_not_root(centres, P, -1);
   }

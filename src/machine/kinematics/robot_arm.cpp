@@ -2,6 +2,29 @@
 
 namespace aircut::machine {
 
+namespace {
+
+// |cos θ5| of the arm's solution, without any angle: every one of them is the angle of a vector, so
+// its cosine and sine are quotients. θ2 + 90° = atan2(v, u) + atan2(lift, a2 + l3 K), where both
+// vectors have the length far = √(u² + v²); θ3 = φ − e·acos K; θ1 is the angle of (C_x r − C_y b,
+// C_y r + C_x b), whose length is C_x² + C_y².
+double wrist_factor(const RobotArm& p, const RobotBranch& branch, const Vec3& C, const Vec3& n,
+                    double u, double v, double K) {
+  const double e = branch.elbow, r = u + p.a1;
+  const double out2 = C.x() * C.x() + C.y() * C.y(), far2 = u * u + v * v;
+  const double c1 = (C.x() * r - C.y() * p.b) / out2, s1 = (C.y() * r + C.x() * p.b) / out2;
+  const double l3 = std::sqrt(p.a3 * p.a3 + p.d4 * p.d4), bend = e * std::sqrt((1 - K) * (1 + K));
+  const double along = p.a2 + l3 * K, lift = l3 * bend;
+  const double c2 = (u * along - v * lift) / far2, s2 = (v * along + u * lift) / far2;
+  const double c3 = (p.a3 * K + p.d4 * bend) / l3, s3 = (p.d4 * K - p.a3 * bend) / l3;
+  const double c23 = s2 * c3 + c2 * s3, s23 = s2 * s3 - c2 * c3;  // θ23 = (θ2 + 90°) + θ3 − 90°
+  const double flange_out = c1 * n.x() + s1 * n.y();
+  const double m0 = c23 * n.z() - s23 * flange_out, m1 = s1 * n.x() - c1 * n.y();
+  return std::sqrt(m0 * m0 + m1 * m1);
+}
+
+}  // namespace
+
 std::optional<std::string> why_no_arm(const RobotArm& p, const RobotBranch& branch, const Vec3& C,
                                       const Vec3& n) {
   const double out = std::hypot(C.x(), C.y());
@@ -22,18 +45,16 @@ std::optional<std::string> why_no_arm(const RobotArm& p, const RobotBranch& bran
   if (!((1 - K) * (1 + K) > robot_singular * robot_singular))
     return "the arm is " + std::string(K > 0 ? "stretched" : "folded") +
            ": joint 3 would need an infinite speed there (a singular pose)";
-  RobotJoints<double> q{};
-  solve_arm<double>(p, branch, {C.x(), C.y(), C.z()}, {n.x(), n.y(), n.z()}, q);
-  if (!(std::abs(std::cos(q[4])) > robot_singular))
+  if (!(wrist_factor(p, branch, C, n, u, v, K) > robot_singular))
     return "the flange is in line with the forearm, where joint 4 can turn freely (a singular "
            "pose)";
   return std::nullopt;
 }
 
 RobotBranch branch_of_arm(const RobotArm& p, double t2, double t3, double t5) {
-  const double t23 = t2 + t3;
-  const double r = p.a1 - p.a2 * std::sin(t2) - p.a3 * std::sin(t23) + p.d4 * std::cos(t23);
-  const double bend = std::sin(std::atan2(p.d4, p.a3) - t3);
+  const double c2 = std::cos(t2), s2 = std::sin(t2), c3 = std::cos(t3), s3 = std::sin(t3);
+  const double r = p.a1 - p.a2 * s2 - p.a3 * (s2 * c3 + c2 * s3) + p.d4 * (c2 * c3 - s2 * s3);
+  const double bend = p.d4 * c3 - p.a3 * s3;  // sin(atan2(d4, a3) − θ3), but for its size
   const auto side = [](double x) { return x >= 0 ? 1.0 : -1.0; };
   return {side(r), side(bend), side(std::cos(t5))};
 }
