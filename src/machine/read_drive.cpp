@@ -249,8 +249,11 @@ std::vector<Drive> read_drives(config::Table& top, const std::string& channel, R
   if (drives.empty()) return drives;  // the table has the error
   const std::string wanted = channel.empty() ? top.text("drive", drives.front().name) : channel;
   top.know("drive");
-  const auto found =
+  auto found =
       std::find_if(drives.begin(), drives.end(), [&](const Drive& d) { return d.name == wanted; });
+  // A channel that has no such name may be given by its number, from 0 on.
+  for (std::size_t i = 0; found == drives.end() && i < drives.size(); ++i)
+    if (wanted == std::to_string(i)) found = drives.begin() + static_cast<long>(i);
   if (found != drives.end()) {
     found->put_on(machine);
     return drives;

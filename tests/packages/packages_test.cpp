@@ -112,9 +112,13 @@ bool carries(const Machine& machine, machine::LinkId link, machine::LinkId end) 
 // that comes to meet it or that it swivels to: of such a pair nothing is promised but at home. (The
 // program decides; that is what runs are checked for.)
 bool work_against_tool(const Machine& machine, const Body& a, const Body& b) {
-  // A link on the way to the end, or behind it.
+  // A link on the way to the end or behind it, or one that turns on it: a spindle of the work.
   const auto side_of = [&](LinkId end, const Body& body) {
-    return carries(machine, body.link, end) || carries(machine, end, body.link);
+    const machine::Link& link = machine.links()[static_cast<std::size_t>(index(body.link))];
+    const bool turns =
+        link.joint >= 0 && link.parent == end &&
+        machine.tree()[static_cast<std::size_t>(link.joint)].kind == machine::JointKind::rotary;
+    return turns || carries(machine, body.link, end) || carries(machine, end, body.link);
   };
   const auto spindle = machine.spindle().link, work = machine.work_link();
   return (side_of(spindle, a) && side_of(work, b)) || (side_of(spindle, b) && side_of(work, a));
