@@ -55,6 +55,7 @@ std::string underline_remark(const sim::Finding& f) {
     case sim::Kind::spindle_stopped_cut:
     case sim::Kind::spindle_direction_cut:
     case sim::Kind::no_tool_cut:
+    case sim::Kind::gouge_live:
     case sim::Kind::plunge_not_center_cutting:
       return "from " + whole(f.u_first) + " % of this move on, t = " + seconds(f.t_first);
     case sim::Kind::overtravel:
@@ -68,6 +69,9 @@ std::string underline_remark(const sim::Finding& f) {
     case sim::Kind::sync_limit:
     case sim::Kind::air_cut:
     case sim::Kind::dynamics_limit:
+    case sim::Kind::gouge:
+    case sim::Kind::excess:
+    case sim::Kind::wrong_setup:
     case sim::Kind::tool_missing:
     case sim::Kind::not_executed:
     case sim::Kind::not_checked:
