@@ -51,7 +51,7 @@
 
   // ---- packed data (src/page/pack.h) ---------------------------------------------------------
   const packed = Uint8Array.from(atob(by('blob').textContent), c => c.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate'));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream('deflate-raw'));
   const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
   function integers(row, Kind = Float64Array) {
     const out = new Kind(row.count);

@@ -1,7 +1,5 @@
 #include "page/pack.h"
 
-#include <zlib.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
@@ -28,16 +26,6 @@ Row Blob::add_text(std::string_view text) {
   const Row row{bytes_.size(), text.size()};
   bytes_ += text;
   return row;
-}
-
-std::string deflated(std::string_view bytes) {
-  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-  std::string out(size, '\0');
-  const int done =
-      compress2(reinterpret_cast<Bytef*>(out.data()), &size,
-                reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), 7);
-  out.resize(done == Z_OK ? size : 0);  // only memory can fail it, and that ends the program anyway
-  return out;
 }
 
 TriangleMesh clustered(const TriangleMesh& mesh, double cell) {

@@ -30,9 +30,6 @@ class Blob {
   std::string bytes_;
 };
 
-/// zlib format, as DecompressionStream('deflate') reads it.
-std::string deflated(std::string_view bytes);
-
 /// The mesh with its vertices merged into cells of `cell` mm, each at the point that lies nearest
 /// to all planes that meet in it (quadric clustering, Lindstrom 2000): flat faces stay flat and
 /// most edges sharp. For pictures only.

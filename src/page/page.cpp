@@ -6,6 +6,7 @@
 #include <iterator>
 #include <set>
 
+#include "base/deflate.h"
 #include "base/hash.h"
 #include "page/assets.h"
 #include "page/pack.h"

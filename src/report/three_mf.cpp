@@ -4,10 +4,10 @@
 // Each entry is a local header, its deflated bytes, and a row of the directory at the end. The time
 // in the headers is the earliest that zip knows, so that the same mesh gives the same bytes.
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <iterator>
 
+#include "base/deflate.h"
 #include "report/report.h"
 
 namespace aircut::report {
@@ -46,40 +46,11 @@ std::string model_of(const TriangleMesh& mesh) {
   return out;
 }
 
-/// Raw deflate (RFC 1951), without zlib's own header.
-std::string deflated(const std::string& bytes) {
-  z_stream stream{};
-  if (deflateInit2(&stream, 6, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) return {};
-  std::string out;
-  std::string part(1 << 16, '\0');
-  std::size_t given = 0;
-  int state = Z_OK;
-  while (state == Z_OK || state == Z_BUF_ERROR) {
-    if (stream.avail_in == 0 && given < bytes.size()) {
-      const std::size_t now = std::min<std::size_t>(bytes.size() - given, 1u << 30);
-      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data() + given));
-      stream.avail_in = static_cast<uInt>(now);
-      given += now;
-    }
-    stream.next_out = reinterpret_cast<Bytef*>(part.data());
-    stream.avail_out = static_cast<uInt>(part.size());
-    state = deflate(&stream, given == bytes.size() ? Z_FINISH : Z_NO_FLUSH);
-    out.append(part.data(), part.size() - stream.avail_out);
-  }
-  deflateEnd(&stream);
-  return out;
-}
-
 class Zip {
  public:
   void add(const std::string& name, const std::string& bytes) {
     const std::string packed = deflated(bytes);
-    uLong sum = crc32(0, nullptr, 0);
-    for (std::size_t at = 0; at < bytes.size();) {
-      const std::size_t now = std::min<std::size_t>(bytes.size() - at, 1u << 30);
-      sum = crc32(sum, reinterpret_cast<const Bytef*>(bytes.data() + at), static_cast<uInt>(now));
-      at += now;
-    }
+    const std::uint32_t sum = crc32_of(bytes);
     const std::size_t offset = out_.size();
     std::string head;  // what the local header and the directory have in common
     put(head, 20, 2);  // version 2.0: deflate

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "base/base.h"
+#include "base/deflate.h"
 
 namespace aircut {
 namespace {
@@ -76,6 +77,15 @@ TEST(Hash, Base64IsThatOfTheStandard) {  // RFC 4648, section 10
   EXPECT_EQ(base64("f"), "Zg==");
   EXPECT_EQ(base64("fo"), "Zm8=");
   EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
+}
+
+// The bits of a stored and of a compressed block are read by page_in_a_browser and by the readers
+// of 3MF files; here is what the format's own texts say.
+TEST(Deflate, ChecksumAndSizeAreRight) {
+  EXPECT_EQ(crc32_of("123456789"), 0xcbf43926u);  // the check value of CRC-32
+  EXPECT_EQ(crc32_of(""), 0u);
+  EXPECT_LT(deflated(std::string(100'000, 'x')).size(), 1000u);
+  EXPECT_EQ(deflated(""), std::string("\x03\x00", 2));  // a last block with an end alone
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #include "page/pack.h"
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <random>
 
@@ -40,19 +39,6 @@ TEST(Pack, IntegersComeBackAsTheyWere) {
   for (const auto& row : rows) where.push_back(blob.add(row));
   for (std::size_t i = 0; i < rows.size(); ++i)
     EXPECT_EQ(read_back(blob.bytes(), where[i]), rows[i]);
-}
-
-TEST(Pack, DeflatedBytesAreZlibs) {
-  const std::string text(100'000, 'x');
-  const std::string packed = deflated(text);
-  EXPECT_LT(packed.size(), 1000u);
-  std::string back(text.size(), '\0');
-  uLongf size = static_cast<uLongf>(back.size());
-  ASSERT_EQ(
-      uncompress(reinterpret_cast<Bytef*>(back.data()), &size,
-                 reinterpret_cast<const Bytef*>(packed.data()), static_cast<uLong>(packed.size())),
-      Z_OK);
-  EXPECT_EQ(back, text);
 }
 
 // A box whose faces are n x n squares.
