@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "render/gl_context.h"
 #include "base/shared_library.h"
+#include "render/gl_context.h"
 
 namespace aircut::render {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <array>
 
-#include "render/gl_context.h"
 #include "base/shared_library.h"
+#include "render/gl_context.h"
 
 namespace aircut::render {
 namespace {

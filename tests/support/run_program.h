@@ -41,8 +41,7 @@ inline RunResult run_program(const std::string& text,
                              std::shared_ptr<const machine::Machine> machine,
                              const tool::ToolTable& tools, SourceMap& sources,
                              const sim::CheckOptions& checks = {}, double max_time = 360'000,
-                             sim::Observer* observer = nullptr,
-                             const SourceText* given = nullptr) {
+                             sim::Observer* observer = nullptr, const SourceText* given = nullptr) {
   RunResult out;
   const SourceText& program = given ? *given : sources.add("test.ngc", text);
   interp::Options options;
