@@ -59,7 +59,7 @@ void interpret(benchmark::State& state, const std::string& text, std::int64_t li
         program, {}, {}, options, [&](const std::string& path) { return sources.open(path); },
         diagnostics);
     std::int64_t commands = 0;
-    while (auto command = interpreter.next()) ++commands;
+    while (interpreter.next()) ++commands;
     if (diagnostics.errors() > 0) {
       state.SkipWithError(diagnostics.list().front().message.c_str());
       return;
