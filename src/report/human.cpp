@@ -70,12 +70,13 @@ std::string underline_remark(const sim::Finding& f) {
     case sim::Kind::air_cut:
     case sim::Kind::dynamics_limit:
     case sim::Kind::gouge:
-    case sim::Kind::excess:
-    case sim::Kind::wrong_setup:
     case sim::Kind::tool_missing:
     case sim::Kind::not_executed:
     case sim::Kind::not_checked:
       return "t = " + seconds(f.t_first);
+    case sim::Kind::excess:
+    case sim::Kind::wrong_setup:
+      return {};  // of no moment
   }
   return {};
 }

@@ -85,7 +85,9 @@ TEST(Programs, OfTheExamplesOnlyThoseAreToldAboutThatAreMeantTo) {
       ++seen;
       continue;
     }
-    const auto machine = machine::read_machine((root / "machines" / name).string(), sources, out);
+    const auto [package, channel] = machine::split_channel(name);
+    const auto machine =
+        machine::read_machine((root / "machines" / package).string(), sources, out, channel);
     ASSERT_TRUE(machine) << program << " " << name;
     const auto tools = tool::read_tools((*machine)->default_tools_, 1, sources, out);
     ASSERT_TRUE(tools);
@@ -118,6 +120,7 @@ TEST(Programs, OfTheInterpretersTestsEachDoubtIsRight) {
       "comp_lathe.ngc length_offset_missing 7",
       "comp_outside.ngc comp_rapid 11",
       "comp_outside.ngc length_offset_missing 6",
+      "comp_short_end.ngc comp_rapid 12",       // G40, then a rapid
       "coolant_overrides_io.ngc wait_code 21",  // M66 L3
       "cycles_all.ngc cycle_modal_change 14",   // G18 and G19 in a group of cycles
       "cycles_all.ngc cycle_modal_change 16",
