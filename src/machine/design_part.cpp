@@ -64,17 +64,9 @@ void place_part(const SetupPart& wanted, const PackageFiles& files, Machine& mac
   if (!machine.stock_)
     return out.error("setup_invalid", wanted.part.span,
                      "a part is compared with the stock, and there is none: add [stock]");
-  auto mesh = files.mesh(wanted.mesh_path, wanted.mesh_options);
-  if (!mesh) {
-    Diagnostic error = mesh.error();
-    error.kind = "setup_invalid";  // the file is the set-up's, not the machine's
-    error.span = wanted.mesh_span;
-    return out.add(error);
-  }
-  if (!without_border(**mesh) || volume(**mesh) <= 0)
-    return out.error("setup_invalid", wanted.mesh_span,
-                     "the mesh of the part must be closed and face outwards: what is inside of it "
-                     "is not defined otherwise");
+  const auto mesh =
+      setup_solid(files, wanted.mesh_path, wanted.mesh_options, wanted.mesh_span, "part");
+  if (!mesh) return out.add(mesh.error());
   Pose X_SP = translation(wanted.place);
   X_SP.linear() = Eigen::AngleAxisd(wanted.angle, Vec3::UnitZ()).toRotationMatrix();
   DesignPart part = wanted.part;

@@ -71,4 +71,24 @@ bool without_border(const TriangleMesh& mesh) {
                      [](const auto& entry) { return entry.second == 0; });
 }
 
+Expected<std::shared_ptr<const TriangleMesh>> setup_solid(const PackageFiles& files,
+                                                          const std::string& path,
+                                                          const MeshFileOptions& options,
+                                                          const SourceSpan& span,
+                                                          const std::string& what) {
+  auto mesh = files.mesh(path, options);
+  if (!mesh) {
+    Diagnostic error = mesh.error();
+    error.kind = "setup_invalid";
+    error.span = span;
+    return unexpected(std::move(error));
+  }
+  if (!without_border(**mesh) || volume(**mesh) <= 0)
+    return unexpected(make_error("setup_invalid", span,
+                                 "the mesh of the " + what +
+                                     " must be closed and face outwards: what is inside of it is "
+                                     "not defined otherwise"));
+  return mesh;
+}
+
 }  // namespace aircut::machine

@@ -155,17 +155,9 @@ void place_stock(const SetupStock& stock, const PackageFiles& files, Machine& ma
   }
   raw.X_LS = machine.X_LM() * X_MS;
   if (raw.shape == StockShape::mesh) {
-    auto mesh = files.mesh(stock.mesh_path, stock.mesh_options);
-    if (!mesh) {
-      Diagnostic error = mesh.error();
-      error.kind = "setup_invalid";  // the file is the set-up's, not the machine's
-      error.span = stock.mesh_span;
-      return out.add(error);
-    }
-    if (!without_border(**mesh) || volume(**mesh) <= 0)
-      return fail(stock.mesh_span,
-                  "the mesh of the stock must be closed and face outwards: what is "
-                  "inside of it is not defined otherwise");
+    const auto mesh =
+        setup_solid(files, stock.mesh_path, stock.mesh_options, stock.mesh_span, "stock");
+    if (!mesh) return out.add(mesh.error());
     raw.mesh = *mesh;
   } else if (raw.shape == StockShape::saved) {
     if (!raw.mesh || !raw.saved) return fail(stock.mesh_span, "a saved stock can't be used here");

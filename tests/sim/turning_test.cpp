@@ -106,6 +106,15 @@ TEST_F(Turning, FindsARapidThroughTheBar) {
   EXPECT_EQ(run("G0 Z-95\nG0 X19.98\nG0 Z-130\n").count(Kind::rapid_cut), 1);
 }
 
+TEST_F(Turning, DoesNotVouchForThreads) {
+  const RunResult r = run("G0 Z-95\nG0 X19\nG33 Z-120 K1.5\nG0 X30\nG0 Z-95\n");
+  EXPECT_EQ(r.verdict, Verdict::unknown);
+  EXPECT_NE(r.only(Kind::not_checked).message.find("cuts a thread"), std::string::npos);
+  EXPECT_EQ(r.count(Kind::rapid_cut), 0);
+  // One that stays outside of the bar takes nothing and harms nothing.
+  EXPECT_EQ(run("G0 Z-95\nG0 X21\nG33 Z-120 K1.5\nG0 X30\n").verdict, Verdict::pass);
+}
+
 TEST_F(Turning, GoesBackThroughWhatWasCut) {
   EXPECT_EQ(run("G0 Z-95\nG0 X15\nG1 Z-130\nG0 Z-95\n").count(Kind::rapid_cut), 0);
 }

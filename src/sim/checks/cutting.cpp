@@ -9,9 +9,6 @@ namespace aircut::sim {
 
 namespace {
 
-constexpr double deepest_touch = 0.01;  // ε_cut, mm
-constexpr double largest_touch = 0.01;  // V_cut, mm³
-constexpr double longest_air = 20;      // mm of a feed move that takes nothing
 constexpr double plunge_angle = 3 * M_PI / 180;
 constexpr std::size_t batch_size = 256;
 constexpr double rough = 0.5;  // mm, tolerance of the moves that solids are asked with first
@@ -146,10 +143,7 @@ void CuttingCheck::give_up(const std::string& why) {
 void CuttingCheck::tell_given_up(const Step& step, Findings& out) {
   if (given_up_.empty() || told_) return;
   told_ = true;
-  Finding f = finding_at(Kind::not_checked, step, step.segment.t_start);
-  f.message = "from here on it is not known what is left of the stock: " + given_up_;
-  f.makes_unknown = true;
-  out.add(f);
+  out.add(lost_stock(step, given_up_));
 }
 
 // ---- the stock ---------------------------------------------------------------------------------
@@ -171,7 +165,7 @@ bool CuttingCheck::near(const Solid& solid, const StraightMove& move) const {
 }
 
 bool CuttingCheck::takes(const stock::Touch& touch) const {
-  return touch.depth > deepest_touch || touch.volume > largest_touch;
+  return takes_material(touch.depth, touch.volume);
 }
 
 stock::Touch CuttingCheck::touch_of(const stock::Piece& piece) {
@@ -212,11 +206,7 @@ void CuttingCheck::flush() {
 std::optional<Kind> CuttingCheck::forbidden(const Step& step) const {
   const plan::Segment& segment = step.segment;
   if (no_tool_) return Kind::no_tool_cut;
-  // Where a rapid and a feed move are rounded into one another, neither is at its full speed.
-  if (!segment.rounds_feed &&
-      (std::holds_alternative<canon::Rapid>(segment.command.action) ||
-       segment.kind == plan::MotionKind::rapid || segment.kind == plan::MotionKind::tool_change))
-    return Kind::rapid_cut;
+  if (is_rapid(step)) return Kind::rapid_cut;
   const double rpm = segment.spindle_rpm;
   if (rpm == 0) return Kind::spindle_stopped_cut;
   // A tap comes back with the spindle reversed.
@@ -238,11 +228,7 @@ void CuttingCheck::step(const Step& step, Findings& out) {
   }
   rows_.clear();
   look_at(step, out);
-  for (Finding& f : rows_) {
-    if (f.value && f.unit == "mm3" && f.kind != Kind::no_tool_cut)
-      f.message += ": " + fixed(*f.value, *f.value < 10 ? 2 : 0) + " mm³ in its way";
-    out.add(std::move(f));
-  }
+  rows_.hand_over(out);
 }
 
 // Where the tool turns, shank and holder are far from the middle of a turn and would need many
@@ -298,23 +284,14 @@ void CuttingCheck::look_at(const Step& step, Findings& out) {
 
 void CuttingCheck::look_for_air(const Step& step, const std::vector<StraightMove>& moves,
                                 Findings& out) {
-  const double length = plan::length(step.segment.path);
-  if (length <= longest_air) return;
+  if (plan::length(step.segment.path) <= longest_air) return;
   flush();
   for (const StraightMove& move : moves)
     for (const Solid& cutter : cutters_) {
       if (!stock()) return;
       if (near(cutter, move) && touch_of(piece(cutter, move)).depth > 0) return;
     }
-  Finding f = finding_at(Kind::air_cut, step, step.segment.t_start);
-  f.t_end = step.segment.t_end();
-  f.u_first = fraction_at(step, f.t_first);
-  f.u_end = fraction_at(step, f.t_end);
-  f.message = "this feed move of " + fixed(length, 1) + " mm takes no material";
-  f.value = length;
-  f.limit = longest_air;
-  f.unit = "mm";
-  out.add(f);
+  add_air_cut(step, out);
 }
 
 void CuttingCheck::cutter_may_not(const Step& step, const StraightMove& move, const Solid& cutter,
@@ -333,7 +310,7 @@ void CuttingCheck::cutter_may_not(const Step& step, const StraightMove& move, co
   f.depth_bound = stock_->pitch() / 2;
   f.unit = "mm3";
   f.value = 0;
-  tell(std::move(f), touch);
+  rows_.tell(std::move(f), touch.depth, touch.volume);
   if (kind != Kind::no_tool_cut) {
     hold(step, cutter, move);
     flush();
@@ -354,61 +331,19 @@ void CuttingCheck::ask(const Step& step, const StraightMove& move, const Solid& 
   const auto enough = [&](const stock::Piece& part) { return takes(touch_of(part)); };
   Finding f =
       row(hit ? Kind::collision : Kind::near_miss, step, move, solid, answer->touch.point, enough);
-  const std::string who =
-      (solid.role == machine::Role::shank ? "tool shank `" : "tool holder `") + solid.name + "`";
-  if (hit) {
-    f.message = who + " runs into stock that the cutter leaves standing";
-    f.depth_bound = answer->most - answer->least;
-    f.remedy = "use a longer stick-out or flute length, or clear the material beside it first";
-  } else {
-    f.message = who + " may touch stock: neither contact nor clearance could be proven with a " +
-                shortest(stock_->pitch()) + " mm lattice";
-    f.remedy = "a smaller [stock] pitch in the set-up decides it";
-    f.unresolved = f.makes_unknown = true;
-  }
-  tell(std::move(f), answer->touch);
-}
-
-void CuttingCheck::tell(Finding f, const stock::Touch& touch) {
-  auto at = std::find_if(rows_.begin(), rows_.end(), [&](const Finding& other) {
-    return other.kind == f.kind && other.body_a == f.body_a;
-  });
-  if (at == rows_.end()) {
-    at = rows_.insert(at, std::move(f));
-  } else {
-    at->t_end = f.t_end;
-    at->u_end = f.u_end;
-    if (touch.depth > at->depth.value_or(0)) at->points = f.points;
-  }
-  if (at->value) *at->value += touch.volume;
-  if (!at->unresolved) at->depth = std::max(at->depth.value_or(0), touch.depth);
+  if (hit)
+    tell_hit(f, {solid.name, solid.role}, answer->most - answer->least,
+             "use a longer stick-out or flute length, or clear the material beside it first");
+  else
+    tell_doubt(f, {solid.name, solid.role}, stock_->pitch());
+  rows_.tell(std::move(f), answer->touch.depth, answer->touch.volume);
 }
 
 Finding CuttingCheck::row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
                           const Vec3& point,
                           const std::function<bool(const stock::Piece&)>& enough) {
-  // The first fraction of the move that takes something, by halving: what a longer part takes, it
-  // takes too.
-  double low = 0, part = 1;
-  for (int i = 0; i < 12; ++i) {
-    const double middle = 0.5 * (low + part);
-    (enough(piece(solid, move, middle)) ? part : low) = middle;
-  }
-  const double s = move.s0 + part * (move.s1 - move.s0);
-  Finding f = finding_at(kind, step, time_at(step, s));
-  f.t_end = std::max(f.t_first, time_at(step, move.s1));
-  f.u_first = fraction_at(step, f.t_first);
-  f.u_end = fraction_at(step, f.t_end);
-  f.body_a = solid.name;
-  f.body_b = "stock";
-  f.pair = std::string(machine::to_string(solid.role)) + "-stock";
-  if (f.joints_first.size() > 0) {
-    machine::LinkPoses poses;
-    machine::forward(step.scene.machine(), f.joints_first, poses);
-    f.points = {poses.X_WL[static_cast<std::size_t>(machine::index(raw_->link))] * raw_->X_LS *
-                point};
-  }
-  return f;
+  return cut_row(kind, step, move, {solid.name, solid.role}, *raw_, point,
+                 [&](double part) { return enough(piece(solid, move, part)); });
 }
 
 void CuttingCheck::look_at_part(const Step& step, const Solid& cutter, const StraightMove& move) {
@@ -430,7 +365,7 @@ void CuttingCheck::look_at_part(const Step& step, const Solid& cutter, const Str
   f.remedy =
       "check the depth, the tool's length and radius offsets, and where the part stands ([part])";
   if (auto taken = part_->take(whole, f, *depth); !taken) return give_up(taken.error().message);
-  tell(std::move(f), *depth);
+  rows_.tell(std::move(f), depth->depth, depth->volume);
 }
 
 void CuttingCheck::compare_with_part(Summary& summary, Findings& out) {

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/checks/cut_rows.h"
 #include "sim/checks/cut_tape.h"
 #include "sim/checks/part_watch.h"
 #include "sim/checks/tool_way.h"
@@ -66,8 +67,6 @@ class CuttingCheck final : public Check {
   void cutter_may_not(const Step& step, const StraightMove& move, const Solid& cutter, Kind kind);
   void ask(const Step& step, const StraightMove& move, const Solid& solid);
   void look_for_air(const Step& step, const std::vector<StraightMove>& moves, Findings& out);
-  /// Adds a row, or lengthens the one of this step that is the same.
-  void tell(Finding row, const stock::Touch& touch);
   /// `enough`: whether a part of the move does what the row is about.
   Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
               const Vec3& point, const std::function<bool(const stock::Piece&)>& enough);
@@ -93,11 +92,11 @@ class CuttingCheck final : public Check {
   Reach reach_, cutter_reach_;          ///< of the whole tool, of what cuts
   std::vector<const Solid*> doubtful_;  ///< of others_: not clear of the stock over the whole step
   std::vector<StraightMove> moves_;     ///< of the step at hand
-  std::vector<Finding> rows_;           ///< likewise
-  std::vector<stock::Piece> batch_;     ///< waiting to be cut
-  std::vector<double> batch_times_;     ///< program time at the end of each
-  std::string given_up_;  ///< why nothing more is known of the stock; empty: it is known
-  std::string no_part_;   ///< why the result can't be compared with the part
+  CutRows rows_;
+  std::vector<stock::Piece> batch_;  ///< waiting to be cut
+  std::vector<double> batch_times_;  ///< program time at the end of each
+  std::string given_up_;             ///< why nothing more is known of the stock; empty: it is known
+  std::string no_part_;              ///< why the result can't be compared with the part
   bool told_ = false;
 };
 

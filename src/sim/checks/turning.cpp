@@ -13,21 +13,16 @@ namespace aircut::sim {
 
 namespace {
 
-constexpr double deepest_touch = 0.01;  // ε_cut, mm
-constexpr double largest_touch = 0.01;  // V_cut, mm³
-constexpr double longest_air = 20;      // mm of a feed move that takes nothing
-constexpr double off_centre = 1e-3;     // mm: height of a tool over the spindle's axis
-constexpr double finer = 5;             // than the lattice of a milled stock: a section is cheap
-constexpr double facets = 0.02;         // mm, of part.stl
+constexpr double off_centre = 1e-3;  // mm: height of a tool over the spindle's axis
+constexpr double finer = 5;          // than the lattice of a milled stock: a section is cheap
+constexpr double facets = 0.02;      // mm, of part.stl
 
 // Where the middle of an insert's nose is, seen from the controlled point, in nose radii: X, Z.
 // Orientation 1 to 9 of the tool table.
 constexpr double nose_of[10][2] = {{0, 0},  {1, -1}, {1, 1}, {-1, 1}, {-1, -1},
                                    {0, -1}, {1, 0},  {0, 1}, {-1, 0}, {0, 0}};
 
-bool takes(const stock::TurningTouch& touch) {
-  return touch.depth > deepest_touch || touch.volume > largest_touch;
-}
+bool takes(const stock::TurningTouch& touch) { return takes_material(touch.depth, touch.volume); }
 
 // The outline of a solid of revolution from its side, as convex sections that join.
 std::vector<stock::TurningSection> sections_of(const Profile& profile, double axis_r,
@@ -264,10 +259,7 @@ void TurningCheck::give_up(const std::string& why) {
 void TurningCheck::tell_given_up(const Step& step, Findings& out) {
   if (given_up_.empty() || told_ || !raw_) return;
   told_ = true;
-  Finding f = finding_at(Kind::not_checked, step, step.segment.t_start);
-  f.message = "from here on it is not known what is left of the stock: " + given_up_;
-  f.makes_unknown = true;
-  out.add(f);
+  out.add(lost_stock(step, given_up_));
 }
 
 // ---- moves -------------------------------------------------------------------------------------
@@ -303,13 +295,9 @@ double TurningCheck::cut(const Step& step, const Solid& solid, const StraightMov
 }
 
 std::optional<Kind> TurningCheck::forbidden(const Step& step) const {
-  const plan::Segment& segment = step.segment;
   if (no_tool_) return Kind::no_tool_cut;
-  if (!segment.rounds_feed &&
-      (std::holds_alternative<canon::Rapid>(segment.command.action) ||
-       segment.kind == plan::MotionKind::rapid || segment.kind == plan::MotionKind::tool_change))
-    return Kind::rapid_cut;
-  if (segment.spindle_rpm == 0) return Kind::spindle_stopped_cut;
+  if (is_rapid(step)) return Kind::rapid_cut;
+  if (step.segment.spindle_rpm == 0) return Kind::spindle_stopped_cut;
   return std::nullopt;
 }
 
@@ -320,8 +308,6 @@ void TurningCheck::step(const Step& step, Findings& out) {
   if (std::holds_alternative<canon::Probe>(step.segment.command.action)) return;
   moves_.clear();
   rows_.clear();
-  // A thread is no body of revolution: the bar stays as it is under it.
-  if (step.segment.sync) return;
   if (!straight_moves(step, *raw_, reach_, tolerance_, moves_)) {
     give_up("the way of the tool over the stock can't be told");
     return tell_given_up(step, out);
@@ -330,11 +316,7 @@ void TurningCheck::step(const Step& step, Findings& out) {
   if (!tool_read_) tool_problem_ = read_tool(step.scene, moves_.front().axis);
   tool_read_ = true;
   look_at(step, out);
-  for (Finding& f : rows_) {
-    if (f.value && f.kind != Kind::no_tool_cut)
-      f.message += ": " + fixed(*f.value, *f.value < 10 ? 2 : 0) + " mm³ in its way";
-    out.add(std::move(f));
-  }
+  rows_.hand_over(out);
 }
 
 void TurningCheck::look_at(const Step& step, Findings& out) {
@@ -355,7 +337,10 @@ void TurningCheck::look_at(const Step& step, Findings& out) {
     if (rises)
       for (const Solid& solid : others_) ask(step, move, solid);
     for (const Solid& solid : cutters_) {
-      if (kind)
+      if (step.segment.sync && !no_tool_) {  // a thread is no body of revolution
+        if (takes(touch(solid, move)))
+          give_up("`" + solid.name + "` cuts a thread, of which there is no model");
+      } else if (kind)
         cutter_may_not(step, move, solid, *kind);
       else
         volume += cut(step, solid, move);
@@ -364,17 +349,8 @@ void TurningCheck::look_at(const Step& step, Findings& out) {
       for (const Solid& solid : others_) ask(step, move, solid);
     if (!given_up_.empty()) return tell_given_up(step, out);
   }
-  const double length = plan::length(step.segment.path);
-  if (kind || volume > 0 || length <= longest_air) return;
-  Finding f = finding_at(Kind::air_cut, step, step.segment.t_start);
-  f.t_end = step.segment.t_end();
-  f.u_first = fraction_at(step, f.t_first);
-  f.u_end = fraction_at(step, f.t_end);
-  f.message = "this feed move of " + fixed(length, 1) + " mm takes no material";
-  f.value = length;
-  f.limit = longest_air;
-  f.unit = "mm";
-  out.add(f);
+  if (!kind && !step.segment.sync && volume == 0 && plan::length(step.segment.path) > longest_air)
+    add_air_cut(step, out);
 }
 
 void TurningCheck::cutter_may_not(const Step& step, const StraightMove& move, const Solid& solid,
@@ -387,7 +363,7 @@ void TurningCheck::cutter_may_not(const Step& step, const StraightMove& move, co
   f.depth_bound = stock_->pitch() / 2;
   f.unit = "mm3";
   f.value = 0;
-  tell(std::move(f), here);
+  rows_.tell(std::move(f), here.depth, here.volume);
   if (kind != Kind::no_tool_cut) cut(step, solid, move);
 }
 
@@ -401,58 +377,20 @@ bool TurningCheck::ask(const Step& step, const StraightMove& move, const Solid& 
   const bool hit = takes(here);
   Finding f = row(hit ? Kind::collision : Kind::near_miss, step, move, hit ? solid : wide,
                   hit ? here : touch(wide, move));
-  const std::string who =
-      (solid.role == machine::Role::shank ? "tool shank `" : "tool holder `") + solid.name + "`";
-  if (hit) {
-    f.message = who + " runs into stock that the cutter leaves standing";
-    f.depth_bound = stock_->pitch() / 2;
-    f.remedy = "use a longer stick-out, or clear the material beside it first";
-  } else {
-    f.message = who + " may touch stock: neither contact nor clearance could be proven with a " +
-                shortest(stock_->pitch()) + " mm lattice";
-    f.remedy = "a smaller [stock] pitch in the set-up decides it";
-    f.unresolved = f.makes_unknown = true;
-  }
-  tell(std::move(f), here);
+  if (hit)
+    tell_hit(f, {solid.name, solid.role}, stock_->pitch() / 2,
+             "use a longer stick-out, or clear the material beside it first");
+  else
+    tell_doubt(f, {solid.name, solid.role}, stock_->pitch());
+  rows_.tell(std::move(f), here.depth, here.volume);
   return false;
-}
-
-void TurningCheck::tell(Finding f, const stock::TurningTouch& touch) {
-  auto at = std::find_if(rows_.begin(), rows_.end(), [&](const Finding& other) {
-    return other.kind == f.kind && other.body_a == f.body_a;
-  });
-  if (at == rows_.end()) {
-    at = rows_.insert(at, std::move(f));
-  } else {
-    at->t_end = f.t_end;
-    at->u_end = f.u_end;
-  }
-  if (at->value) *at->value += touch.volume;
-  if (!at->unresolved) at->depth = std::max(at->depth.value_or(0), touch.depth);
 }
 
 Finding TurningCheck::row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
                           const stock::TurningTouch& touch_) const {
-  // The first fraction of the move that takes something, by halving.
-  double low = 0, part = 1;
-  for (int i = 0; i < 12; ++i) {
-    const double middle = 0.5 * (low + part);
-    (takes(touch(solid, move, middle)) ? part : low) = middle;
-  }
-  Finding f = finding_at(kind, step, time_at(step, move.s0 + part * (move.s1 - move.s0)));
-  f.t_end = std::max(f.t_first, time_at(step, move.s1));
-  f.u_first = fraction_at(step, f.t_first);
-  f.u_end = fraction_at(step, f.t_end);
-  f.body_a = solid.name;
-  f.body_b = "stock";
-  f.pair = std::string(machine::to_string(solid.role)) + "-stock";
-  if (f.joints_first.size() > 0) {
-    machine::LinkPoses poses;
-    machine::forward(step.scene.machine(), f.joints_first, poses);
-    f.points = {poses.X_WL[static_cast<std::size_t>(machine::index(raw_->link))] * raw_->X_LS *
-                Vec3(touch_.r * across_ + touch_.z * Vec3::UnitZ())};
-  }
-  return f;
+  return cut_row(kind, step, move, {solid.name, solid.role}, *raw_,
+                 touch_.r * across_ + touch_.z * Vec3::UnitZ(),
+                 [&](double part) { return takes(touch(solid, move, part)); });
 }
 
 void TurningCheck::finish(Summary& summary, Findings&) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/checks/cut_rows.h"
 #include "sim/checks/tool_way.h"
 #include "sim/sim.h"
 #include "stock/stock.h"
@@ -56,7 +57,6 @@ class TurningCheck final : public Check {
   double cut(const Step& step, const Solid& solid, const StraightMove& move);
   Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
               const stock::TurningTouch& touch) const;
-  void tell(Finding row, const stock::TurningTouch& touch);
   void give_up(const std::string& why);
   void tell_given_up(const Step& step, Findings& out);
 
@@ -72,7 +72,7 @@ class TurningCheck final : public Check {
   std::string tool_problem_;  ///< why it can't be cut with
   Reach reach_;
   std::vector<StraightMove> moves_;  ///< of the step at hand
-  std::vector<Finding> rows_;        ///< likewise
+  CutRows rows_;
   std::string given_up_;
   bool told_ = false;
 };
