@@ -154,6 +154,10 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
     make('div', {class: 'controls'}, play, back, forth, speeds, make('div', {class: 'track'}, slider, marks), cameras, fit, axis, depth,
       make('label', {}, showPath, ' path')),
     make('details', {}, make('summary', {}, 'bodies'), list),
+    ...[
+      run.blocks.left_out ? 'The run has more blocks than this page holds: towards its end the line is not followed.' : '',
+      run.program.left_out_bytes > 0 ? 'Of the program the last ' + run.program.left_out_bytes + ' bytes are not shown.' : '',
+    ].filter(Boolean).map(what => make('p', {class: 'note'}, what)),
     make('p', {class: 'note'}, 'space play · ← → block · home, end · N next finding · F fit · blue feed, yellow rapid' +
       ' · moments between keys are within ' + fixed(run.tolerance_mm, 2) + ' mm'));
 

@@ -146,16 +146,9 @@ bool wants_frames(const RunArguments& a) {
 
 // What is left of the stock: as a mesh, for the next job, and compared with the design.
 Expected<void> write_part(const RunArguments& a, const sim::Simulator& simulator,
-                          report::RunReport& report) {
-  if (!a.save_stock.empty()) {
-    const auto saved = simulator.saved_stock();
-    if (!saved)
-      report.summary.unchecked.push_back(
-          "the stock for the next job (--save-stock): it is not "
-          "known what is left of it");
-    else if (auto written = write_file(a.save_stock, *saved); !written)
-      return written;
-  }
+                          const std::optional<std::string>& saved, report::RunReport& report) {
+  if (saved)
+    if (auto written = write_file(a.save_stock, *saved); !written) return written;
   const bool in_folder = !a.folder.empty();
   if (a.part == "null" || (!in_folder && a.part.empty())) return {};
   const auto mesh = simulator.part();
@@ -236,6 +229,10 @@ int run_command(const RunArguments& a) {
                    "a set-up file has no bodies and no kinematics that could be moved: name "
                    "a package too, -m PACKAGE --ini " +
                        printable(ini_of(a.program))));
+  if (!job.machine->stock() && (!a.save_stock.empty() || (!a.part.empty() && a.part != "null")))
+    return fail(
+        make_error("usage", std::string(a.save_stock.empty() ? "--part" : "--save-stock") +
+                                " needs a stock: name a set-up with [stock], --setup FILE"));
   if (!a.folder.empty())
     if (auto ready = prepare_folder(a.folder, a.force); !ready) return fail(ready.error());
 
@@ -368,6 +365,10 @@ int run_command(const RunArguments& a) {
   acceptance.apply(a.program.program, report.diagnostics, report.findings, report.summary.unchecked,
                    report);
   acceptance.finish(report);
+  const auto saved = a.save_stock.empty() ? std::nullopt : simulator.saved_stock();
+  if (!saved && !a.save_stock.empty())
+    report.summary.unchecked.push_back(
+        "the stock for the next job (--save-stock): it is not known what is left of it");
   Diagnostics judged;
   for (const Diagnostic& d : report.diagnostics) judged.add(d);
   report.summary.verdict = sim::judge(report.findings, report.summary, judged, a.output.fail_on);
@@ -380,7 +381,8 @@ int run_command(const RunArguments& a) {
   }
   if (auto written = line_times.result(); !written) return fail(written.error());
   if (!a.folder.empty()) report.outputs.push_back("lines.jsonl");
-  if (auto written = write_part(a, simulator, report); !written) return fail(written.error());
+  if (auto written = write_part(a, simulator, saved, report); !written)
+    return fail(written.error());
   if (pictures && stop_signal == 0) {
     auto history = simulator.stock_history();
     if (!history) return fail(history.error());

@@ -178,8 +178,9 @@ bool Interpreter::Impl::is_handed_over(const Block& block) const {
 void Interpreter::Impl::hand_over(Block& block) {
   for (const Fault& warning : block.warnings)
     if (std::string_view(warning.kind) == "duplicate_word")
-      return report("unsupported_code", warning.place,
-                    "a letter twice in a block that G66.1 hands to its macro is not implemented");
+      return report(
+          "unsupported_code", warning.place,
+          "a block that G66.1 hands to its macro may have each letter once; here one stands twice");
   handed_ = block;
   handed_.following = nullptr;
   handed_.plain_move = false;

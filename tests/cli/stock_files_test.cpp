@@ -64,6 +64,25 @@ TEST_F(StockFiles, RefusesAStockThatWasChanged) {
   EXPECT_EQ(text_of(path("one.stock")), bytes);
 }
 
+TEST_F(StockFiles, NeedAStockThatIsKnown) {
+  put("one.ngc", program(slot(10)));
+  const std::string job = "run " + path("one.ngc") + " -m mill3 --check limits --frames none ";
+  for (const std::string option : {"--save-stock ", "--part "}) {
+    const Outcome none = aircut(job + option + path("x.stl"));
+    EXPECT_EQ(none.code, 2) << none.out;
+    EXPECT_TRUE(none.says("needs a stock")) << none.err;
+  }
+  // That of a lathe can't be saved.
+  put("bar.ngc", "G18 G21 G90\nG53 G0 X190\nM2\n");
+  put("bar.toml", "schema = 1\n[stock]\ncylinder = [20.0, 30.0]\n");
+  const Outcome bar =
+      aircut("run " + path("bar.ngc") + " -m lathe-slant --setup " + path("bar.toml") +
+             " --check limits,cut --log null --save-stock " + path("bar.stock"));
+  EXPECT_EQ(bar.code, 2) << bar.out << bar.err;
+  EXPECT_TRUE(bar.says("--save-stock")) << bar.out << bar.err;
+  EXPECT_TRUE(text_of(path("bar.stock")).empty());
+}
+
 TEST_F(StockFiles, WritesOnePartWhereItIsWanted) {
   put("one.ngc", program(slot(10)));
   put("raw.toml", block + raw);

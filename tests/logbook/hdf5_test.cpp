@@ -42,7 +42,8 @@ std::string text_of_log(int rows) {
 
 struct Hdf5 : ::testing::Test {
   void SetUp() override {
-    if (auto ready = hdf5_ready(); !ready) GTEST_SKIP() << ready.error().message;
+    const auto ready = hdf5_ready();
+    ASSERT_TRUE(ready) << ready.error().message;
     std::string name = (fs::temp_directory_path() / "aircut-hdf5-XXXXXX").string();
     folder = ::mkdtemp(name.data());
   }
