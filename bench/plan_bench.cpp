@@ -2,6 +2,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <limits>
 
 #include "machine/machine.h"
 #include "plan/plan.h"
@@ -99,21 +100,25 @@ void ox_short_lines(benchmark::State& state) {
   plan(state, ox_glide(), xyz(250, 0, -310), {0.05, 0.01, 0});
 }
 
-// Six joints that all move, each with a jerk limit.
-machine::Machine six_joints() {
+// Six joints that all move.
+machine::Machine six_joints(double jmax = std::numeric_limits<double>::infinity()) {
   machine::Machine m;
   for (const char* name : {"X", "Y", "Z", "A", "B", "C"}) {
     add_joint(m, name);
-    m.tree_.back().jmax = 30000;
+    m.tree_.back().jmax = jmax;
   }
   m.kinematics_ = machine::make_identity({Axis::x, Axis::y, Axis::z, Axis::a, Axis::b, Axis::c});
   return m;
 }
-void six_joints_jerk(benchmark::State& state) {
-  plan(state, six_joints(), {}, {.step = 1, .p = 0.02, .q = 0, .turn = 0.02});
+constexpr Path six_lines{.step = 1, .p = 0.02, .q = 0, .turn = 0.02};
+constexpr Path six_short_lines{.step = 0.05, .p = 0.01, .q = 0, .turn = 0.02};
+void six_joints_lines(benchmark::State& state) { plan(state, six_joints(), {}, six_lines); }
+void six_joints_short_lines(benchmark::State& state) {
+  plan(state, six_joints(), {}, six_short_lines);
 }
+void six_joints_jerk(benchmark::State& state) { plan(state, six_joints(30000), {}, six_lines); }
 void six_joints_jerk_short(benchmark::State& state) {
-  plan(state, six_joints(), {}, {.step = 0.05, .p = 0.01, .q = 0, .turn = 0.02});
+  plan(state, six_joints(30000), {}, six_short_lines);
 }
 
 // The cost of a line against the length of the program.
@@ -121,6 +126,8 @@ BENCHMARK(mill_short_lines)
     ->RangeMultiplier(10)
     ->Range(1000, 10000000)
     ->Unit(benchmark::kMillisecond);
+BENCHMARK(six_joints_lines)->Arg(2000)->Unit(benchmark::kMillisecond);
+BENCHMARK(six_joints_short_lines)->Arg(20000)->Unit(benchmark::kMillisecond);
 BENCHMARK(six_joints_jerk)->Arg(2000)->Unit(benchmark::kMillisecond);
 BENCHMARK(six_joints_jerk_short)->Arg(20000)->Unit(benchmark::kMillisecond);
 BENCHMARK(mill_lines)->Arg(10000)->Unit(benchmark::kMillisecond);

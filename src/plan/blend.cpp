@@ -17,6 +17,9 @@
 // Between two lines the curve's form depends on the turn angle alone: its parameter is taken from a
 // table over θ.
 //
+// So are its derivatives at nine places, where the joints are linear in the tip: what a corner asks
+// of them is then known without looking at the curve.
+//
 // No rounder than needed: acceleration on the blend goes with 1 / L at the same speed, so L shrinks
 // to the size at which the wanted speed just is possible.
 #include "plan/blend.h"
@@ -93,7 +96,24 @@ class CornerForms {
       out[Axis::y] = std::sin(theta);
       const Path left = make_line(in, {}), right = make_line({}, out);
       forms_[i] = bezier({left, right}, shape_for(theta), 1);
+      rates_[i] = rates_of(forms_[i]);
     }
+  }
+
+  CornerRates rates_at(double theta) const {
+    const double place = theta / step;
+    const auto i = std::min(static_cast<std::size_t>(place), forms_.size() - 2);
+    const double f = place - static_cast<double>(i);
+    const CornerRates &a = rates_[i], &b = rates_[i + 1];
+    CornerRates out;
+    const auto between = [f](double x, double y) { return x + f * (y - x); };
+    for (std::size_t k = 0; k < out.at.size(); ++k)
+      for (std::size_t side = 0; side < 2; ++side) {
+        out.at[k].d[side] = between(a.at[k].d[side], b.at[k].d[side]);
+        out.at[k].dd[side] = between(a.at[k].dd[side], b.at[k].dd[side]);
+      }
+    out.length = between(a.length, b.length);
+    return out;
   }
 
   Blend at(double theta, const std::array<AxisValues, 6>& control, double cut) const {
@@ -110,13 +130,44 @@ class CornerForms {
   }
 
  private:
+  // The same curve with its two directions told apart: `in` counts along X, `out` along Y.
+  static CornerRates rates_of(const Blend& form) {
+    CornerRates out;
+    Blend apart = form;
+    const auto put = [&](std::size_t i, double in, double out_way) {
+      apart.control[i] = {};
+      apart.control[i][Axis::x] = in;
+      apart.control[i][Axis::y] = out_way;
+    };
+    // Along the first direction the way of the points from the corner, which is negative there.
+    const auto way = [&](std::size_t i) {
+      const AxisValues& p = form.control[i];
+      return std::hypot(p[Axis::x], p[Axis::y]);
+    };
+    for (std::size_t i = 0; i < 3; ++i) put(i, -way(i), 0);
+    for (std::size_t i = 3; i < 6; ++i) put(i, 0, way(i));
+    const double last = static_cast<double>(out.at.size() - 1);
+    for (std::size_t k = 0; k < out.at.size(); ++k) {
+      const PathPoint p = evaluate(apart, apart.length * static_cast<double>(k) / last);
+      out.at[k].d = {p.d[Axis::x], p.d[Axis::y]};
+      out.at[k].dd = {p.dd[Axis::x], p.dd[Axis::y]};
+    }
+    out.length = form.length;
+    return out;
+  }
+
   static constexpr double step = degree / 2;
   std::array<Blend, 351> forms_;
+  std::array<CornerRates, 351> rates_;
 };
 
-Blend line_blend(const CornerShape& corner, const Shape& shape, double theta, double cut) {
+const CornerForms& corner_forms() {
   static const CornerForms forms;  // a constant that the compiler can't make
-  return forms.at(theta, control_points(corner, shape, cut), cut);
+  return forms;
+}
+
+Blend line_blend(const CornerShape& corner, const Shape& shape, double theta, double cut) {
+  return corner_forms().at(theta, control_points(corner, shape, cut), cut);
 }
 
 // s of a point of the path near `p`, within [low, high]; for lines and arcs the nearest one but for
@@ -224,14 +275,20 @@ std::optional<CornerBlend> make_blend(const CornerShape& corner, const Demand& d
   double cut = lines ? line_cut(corner, shape, (1 / out_size) * out - (1 / in_size) * in)
                      : arc_cut(corner, shape);
   if (!(cut > smallest_cut)) return std::nullopt;
+  if (lines && demand.of_lines) {
+    // What is asked goes exactly with 1 / cut.
+    const double need = demand.of_lines(corner_forms().rates_at(theta), cut);
+    if (need < 0.93) cut = std::max(cut * need * 1.03, smallest_cut);
+    return CornerBlend{line_blend(corner, shape, theta, cut), cut};
+  }
   Blend blend = lines ? line_blend(corner, shape, theta, cut) : bezier(corner, shape, cut);
-  double need = demand(blend);
+  double need = demand.of_blend(blend);
   for (int round = 0; round < 3 && need < 0.93; ++round) {
     const double smaller = std::max(cut * need * 1.03, smallest_cut);
     const Blend rounded =
         lines ? scaled_curve(blend, control_points(corner, shape, smaller), smaller / cut)
               : bezier(corner, shape, smaller);
-    need = lines && corner.linear_joints ? need * cut / smaller : demand(rounded);
+    need = demand.of_blend(rounded);
     if (!(need <= 1)) break;
     if (!lines && deviation(corner, rounded, smaller) > 1) break;
     cut = smaller;

@@ -14,9 +14,17 @@ struct CornerShape {
   double left_room = 0;  ///< how much of each may be cut off, along s
   double right_room = 0;
   double tolerance = 0;  ///< G64 P, mm; 0 = no limit
-  /// The joints are linear in the tip: what a blend between lines demands goes exactly with 1 /
-  /// size.
-  bool linear_joints = false;
+};
+
+/// How a blend between two lines, each cut by 1 mm, is built of the lines' directions by their XYZ
+/// length: p' = d[0] · in + d[1] · out, p'' = dd[0] · in + dd[1] · out at even places from its
+/// start to its end. A cut of c mm makes p'' smaller by c and leaves p' as it is.
+struct CornerRates {
+  struct Place {
+    std::array<double, 2> d, dd;
+  };
+  std::array<Place, 9> at;
+  double length = 0;
 };
 
 struct CornerBlend {
@@ -25,7 +33,12 @@ struct CornerBlend {
 };
 
 /// How large the acceleration on a blend would be at the wanted speed, as a share of the limits.
-using Demand = std::function<double(const Blend&)>;
+struct Demand {
+  std::function<double(const Blend&)> of_blend;
+  /// For a blend between lines that cuts off `cut` mm, on a machine whose joints are linear in the
+  /// tip; empty on others.
+  std::function<double(const CornerRates&, double cut)> of_lines;
+};
 
 /// The blend, no rounder than `demand` asks for; nothing where the corner must be a stop.
 std::optional<CornerBlend> make_blend(const CornerShape& corner, const Demand& demand);

@@ -38,10 +38,15 @@ Chain::Chain(std::size_t max_nodes, const machine::Kinematics& kinematics,
   if (limits.has_jerk()) jerk_.emplace(kinematics, limits, start, period);
 }
 
-void Chain::push(Piece&& piece) {
-  if (piece.entry <= 0) stop();
-  nodes_ += piece.grid.nodes();
-  window_.emplace_back().piece = std::move(piece);
+void Chain::push(Segment&& segment, Grid& grid, double entry, double per_exit) {
+  if (entry <= 0) stop();
+  nodes_ += grid.nodes();
+  Item& item = window_.push_back();
+  item.piece.segment = std::move(segment);
+  std::swap(item.piece.grid, grid);
+  item.piece.entry = entry;
+  item.piece.per_exit = per_exit;
+  item.after.clear();
   if (nodes_ >= next_try_) emit_final();
 }
 
@@ -107,7 +112,7 @@ void Chain::emit(std::size_t count) {
     Ride ride = accelerate(item.piece.grid, item.stop, b_);
     Segment& segment = item.piece.segment;
     segment.profile = std::move(ride.profile);
-    segment.limited_by = ride.spent.longest();
+    segment.limited_by = ride.limited_by;
     nodes_ -= item.piece.grid.nodes();
     if (jerk_) {
       jerk_->push(std::move(segment), std::move(item.piece.grid), std::sqrt(item.piece.per_exit));

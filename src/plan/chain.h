@@ -2,9 +2,8 @@
 // allowed at each joint between them; segments whose time law is final go out.
 #pragma once
 
-#include <deque>
-
 #include "plan/jerk.h"
+#include "plan/ring.h"
 #include "plan/speed.h"
 
 namespace aircut::plan {
@@ -24,7 +23,9 @@ class Chain {
   Chain(std::size_t max_nodes, const machine::Kinematics& kinematics, const JointLimits& limits,
         const machine::JointVector& start, double period);
 
-  void push(Piece&& piece);
+  /// A piece of path (see Piece). The grid is swapped with one that is no longer needed, whose
+  /// memory can be used again.
+  void push(Segment&& segment, Grid& grid, double entry, double per_exit);
   /// A segment that takes no way: it comes out after the piece before it. One that takes time needs
   /// a stop() first.
   void push_still(Segment segment);
@@ -49,7 +50,7 @@ class Chain {
   void drain_jerk_stage();
 
   std::size_t max_nodes_;
-  std::deque<Item> window_;
+  Ring<Item> window_;
   std::size_t nodes_ = 0;       ///< in the window
   std::size_t next_try_ = 512;  ///< nodes at which it is worth looking for final pieces
   double b_ = 0;      ///< squared speed at the start of the window, in its first piece's s

@@ -27,6 +27,50 @@ double change_time(double change, const StraightLimits& limits) {
                                                   : 2 * std::sqrt(change / limits.j);
 }
 
+double largest(const machine::JointVector& x) { return x.cwiseAbs().maxCoeff(); }
+
+// Gathers the load from place to place.
+class Collector {
+ public:
+  Collector(double feed, const JointLimits& limits, double step)
+      : feed_(feed), limits_(limits), has_jerk_(limits.has_jerk()), step_(step) {}
+
+  /// `tip`: the tip's speed per path speed.
+  void add(double tip, const machine::JointVector& dq, const machine::JointVector& ddq,
+           bool at_end) {
+    const double speed = std::min(feed_ / tip, least(limits_.v, dq));
+    out_.acceleration =
+        std::max(out_.acceleration, speed * speed * largest(ddq.cwiseQuotient(limits_.a)));
+    if (!first_ && has_jerk_) {
+      const double third = largest((ddq - before_).cwiseQuotient(limits_.j)) / step_;
+      out_.jerk = std::max(out_.jerk, speed * speed * speed * third);
+    }
+    if (at_end && has_jerk_) {
+      const StraightLimits here{speed, least(limits_.a, dq), least(limits_.j, dq)};
+      out_.along =
+          first_ ? here
+                 : StraightLimits{std::min(out_.along.v, here.v), std::min(out_.along.a, here.a),
+                                  std::min(out_.along.j, here.j)};
+    }
+    out_.speed = first_ ? speed : std::min(out_.speed, speed);
+    first_ = false;
+    if (has_jerk_) before_ = ddq;
+  }
+  CornerLoad finish() {
+    out_.known = true;
+    return out_;
+  }
+
+ private:
+  CornerLoad out_;
+  double feed_;
+  const JointLimits& limits_;
+  bool has_jerk_;
+  double step_;
+  bool first_ = true;
+  machine::JointVector before_;
+};
+
 }  // namespace
 
 double CornerLoad::demand() const { return known ? std::max(acceleration, std::sqrt(jerk)) : 1; }
@@ -34,36 +78,33 @@ double CornerLoad::demand() const { return known ? std::max(acceleration, std::s
 CornerLoad load_of(const machine::Kinematics& kinematics, const Blend& blend, double feed,
                    const AxisValues& tool_offset, const JointLimits& limits,
                    const machine::JointVector& near) {
-  CornerLoad out;
-  machine::JointVector guess = near, ddq_before;
   constexpr int samples = 8;
-  const double step = blend.length / samples;
+  Collector collector(feed, limits, blend.length / samples);
+  machine::JointVector guess = near;
   for (int k = 0; k <= samples; ++k) {
     const PathPoint p = evaluate(blend, blend.length * k / samples);
     const auto joint = joint_point(kinematics, {p.p, tool_offset}, p.d, p.dd, guess);
     if (!joint) return {};
     guess = joint->q;
-    const double tip = metric_length(Metric::xyz, p.d);
-    const double speed = std::min(feed / tip, least(limits.v, joint->dq));
-    const auto largest = [](const machine::JointVector& x) { return x.cwiseAbs().maxCoeff(); };
-    out.acceleration =
-        std::max(out.acceleration, speed * speed * largest(joint->ddq.cwiseQuotient(limits.a)));
-    if (k > 0 && limits.has_jerk()) {
-      const double third = largest((joint->ddq - ddq_before).cwiseQuotient(limits.j)) / step;
-      out.jerk = std::max(out.jerk, speed * speed * speed * third);
-    }
-    if (k == 0 || k == samples) {
-      const StraightLimits here{speed, least(limits.a, joint->dq), least(limits.j, joint->dq)};
-      out.along = k == 0
-                      ? here
-                      : StraightLimits{std::min(out.along.v, here.v), std::min(out.along.a, here.a),
-                                       std::min(out.along.j, here.j)};
-    }
-    out.speed = k == 0 ? speed : std::min(out.speed, speed);
-    ddq_before = joint->ddq;
+    collector.add(metric_length(Metric::xyz, p.d), joint->dq, joint->ddq, k == 0 || k == samples);
   }
-  out.known = true;
-  return out;
+  return collector.finish();
+}
+
+CornerLoad load_of_lines(const CornerRates& rates, double cut, const machine::JointVector& in,
+                         const machine::JointVector& out, double turn_cosine, double feed,
+                         const JointLimits& limits) {
+  const std::size_t last = rates.at.size() - 1;
+  Collector collector(feed, limits, cut * rates.length / static_cast<double>(last));
+  machine::JointVector dq, ddq;
+  for (std::size_t k = 0; k <= last; ++k) {
+    const auto& [d, dd] = rates.at[k];
+    dq = d[0] * in + d[1] * out;
+    ddq = (dd[0] / cut) * in + (dd[1] / cut) * out;
+    collector.add(std::sqrt(d[0] * d[0] + d[1] * d[1] + 2 * d[0] * d[1] * turn_cosine), dq, ddq,
+                  k == 0 || k == last);
+  }
+  return collector.finish();
 }
 
 bool stop_is_faster(const CornerLoad& load, const Blend& blend, double cut, double shorter) {

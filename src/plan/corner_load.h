@@ -1,6 +1,7 @@
 // Private: what passing a blend asks of the joints.
 #pragma once
 
+#include "plan/blend.h"
 #include "plan/grid.h"
 #include "plan/s_curve.h"
 
@@ -21,6 +22,12 @@ struct CornerLoad {
 CornerLoad load_of(const machine::Kinematics& kinematics, const Blend& blend, double feed,
                    const AxisValues& tool_offset, const JointLimits& limits,
                    const machine::JointVector& near);
+
+/// The same between two lines on a machine whose joints are linear in the tip. `in`, `out`: the
+/// joints' derivatives by the XYZ length of each line, `turn_cosine`: of the angle between them.
+CornerLoad load_of_lines(const CornerRates& rates, double cut, const machine::JointVector& in,
+                         const machine::JointVector& out, double turn_cosine, double feed,
+                         const JointLimits& limits);
 
 /// True when coming to rest in the corner takes less time than the blend. `cut` is what the blend
 /// takes off each side, `shorter` the shorter side. Only asked under jerk limits: without them a

@@ -45,7 +45,9 @@ Metric metric_of(const AxisValues& way) {
 }
 
 double metric_length(Metric metric, const AxisValues& way) {
-  const auto norm = [&way](Axis a, Axis b, Axis c) { return std::hypot(way[a], way[b], way[c]); };
+  const auto norm = [&way](Axis a, Axis b, Axis c) {
+    return std::sqrt(way[a] * way[a] + way[b] * way[b] + way[c] * way[c]);
+  };
   switch (metric) {
     case Metric::none:
       return 0;

@@ -48,13 +48,21 @@ signed char largest_of(const JointVector& shares) {
 
 class GridMaker {
  public:
-  GridMaker(const JointPath& path, Metric metric, double feed, const JointLimits& limits)
-      : path_(path), metric_(metric), feed_(feed), limits_(limits), length_(length(path.path())) {}
+  GridMaker(const JointPath& path, Metric metric, double feed, const JointLimits& limits,
+            MadeGrid& out)
+      : path_(path),
+        metric_(metric),
+        feed_(feed),
+        limits_(limits),
+        length_(length(path.path())),
+        grid_(out.grid),
+        ends_(out.ends) {}
 
-  tl::expected<MadeGrid, GridFailure> make(bool identity, const JointVector& near);
+  std::optional<GridFailure> make(bool identity, const JointVector& near, bool goes_on);
 
  private:
-  tl::expected<Node, ReachError> node(double s, const JointVector& near) const;
+  std::optional<ReachError> node(double s, const JointVector& near, Node& out) const;
+  void limit(Node& node) const;
   bool is_uniform(bool identity, const Node& first, const Node& last) const;
   std::optional<double> row_error(const Node& a, const Node& m, const Node& b) const;
   bool split(const Node& a, const Node& b, int depth);
@@ -67,21 +75,25 @@ class GridMaker {
   double length_;
   double row_tolerance_ = row_tolerance;
   double ramp_ = 0;  ///< way of a ramp from rest at the ends
-  Grid grid_;
+  Grid& grid_;
+  GridEnds& ends_;
   std::optional<GridFailure> failure_;
 };
 
-tl::expected<Node, ReachError> GridMaker::node(double s, const JointVector& near) const {
+std::optional<ReachError> GridMaker::node(double s, const JointVector& near, Node& out) const {
   const PathPoint p = evaluate(path_.path(), s);
-  auto joint = path_.point(p, near);
-  if (!joint) return unexpected(joint.error());
-  Node out;
+  if (auto why = path_.point(p, near, out.joint)) return why;
   out.s = s;
-  out.joint = std::move(*joint);
+  out.d = p.d;
+  limit(out);
+  return std::nullopt;
+}
+
+// What follows from the joints' and the tip's derivatives.
+void GridMaker::limit(Node& out) const {
   out.alpha = out.joint.dq.cwiseQuotient(limits_.a);
   out.beta = out.joint.ddq.cwiseQuotient(limits_.a);
-  out.d = p.d;
-  out.metric_speed = metric_length(metric_, p.d);
+  out.metric_speed = metric_length(metric_, out.d);
   if (feed_ < infinity && out.metric_speed > 0) {
     out.cap = (feed_ / out.metric_speed) * (feed_ / out.metric_speed);
     out.why.by = LimitedBy::feed;
@@ -92,7 +104,6 @@ tl::expected<Node, ReachError> GridMaker::node(double s, const JointVector& near
     out.cap = fastest * fastest;
     out.why = {LimitedBy::velocity, largest_of(shares)};
   }
-  return out;
 }
 
 // Joints linear in s: the same q' everywhere and no q''. Identity kinematics on a line by
@@ -109,8 +120,8 @@ bool GridMaker::is_uniform(bool identity, const Node& first, const Node& last) c
   };
   if (!same(first) || !same(last)) return false;
   for (const double f : {0.31, 0.5, 0.77}) {
-    const auto n = node(f * length_, first.joint.q);
-    if (!n || !same(*n)) return false;
+    Node n;
+    if (node(f * length_, first.joint.q, n) || !same(n)) return false;
   }
   return true;
 }
@@ -160,81 +171,99 @@ void GridMaker::add(const Node& n, double room) {
 
 // Adds the nodes behind `a` up to and with `b`. False after a failure.
 bool GridMaker::split(const Node& a, const Node& b, int depth) {
-  const auto middle = node((a.s + b.s) / 2, a.joint.q);
-  if (!middle) {
-    failure_ = {a.s, true, middle.error().reason};
+  Node middle;
+  if (const auto why = node((a.s + b.s) / 2, a.joint.q, middle)) {
+    failure_ = {a.s, true, why->reason};
     return false;
   }
   // 2^-24 of the piece: nodes this near that still differ mean that the inverse jumps.
   constexpr int deepest = 24;
-  const auto error = row_error(a, *middle, b);
-  if (depth < deepest && !error)
-    return split(a, *middle, depth + 1) && split(*middle, b, depth + 1);
+  const auto error = row_error(a, middle, b);
+  if (depth < deepest && !error) return split(a, middle, depth + 1) && split(middle, b, depth + 1);
   if (depth == deepest) {
-    const JointVector jump = b.joint.q - a.joint.q - (b.s - a.s) * middle->joint.dq;
+    const JointVector jump = b.joint.q - a.joint.q - (b.s - a.s) * middle.joint.dq;
     if (jump.cwiseAbs().maxCoeff() > 1e-3) {
       failure_ = {a.s, true, "the joints would have to jump to another branch there"};
       return false;
     }
   }
   const double room = 1 - std::min(error.value_or(0), row_tolerance_) / 2;
-  add(*middle, room);
+  add(middle, room);
   add(b, room);
   return true;
 }
 
-tl::expected<MadeGrid, GridFailure> GridMaker::make(bool identity, const JointVector& near) {
-  const auto first = node(0, near);
-  if (!first) return unexpected(GridFailure{0, true, first.error().reason});
+std::optional<GridFailure> GridMaker::make(bool identity, const JointVector& near, bool goes_on) {
+  Node first, last;
+  if (goes_on) {
+    first.joint = {ends_.q_end, ends_.dq_end, ends_.ddq_end};
+    first.d = ends_.d_end;
+    limit(first);
+  } else if (const auto why = node(0, near, first)) {
+    return GridFailure{0, true, why->reason};
+  }
   // The end is reached over the middle, so that `near` is never a long way off.
-  JointVector guess = first->joint.q;
+  JointVector guess = first.joint.q;
   if (!identity) {
     for (int i = 1; i < 16; ++i) {
       const auto q = path_.joints(length_ * i / 16, guess);
-      if (!q) return unexpected(GridFailure{length_ * (i - 1) / 16, false, q.error().reason});
+      if (!q) return GridFailure{length_ * (i - 1) / 16, false, q.error().reason};
       guess = *q;
     }
   }
-  const auto last = node(length_, guess);
-  if (!last) return unexpected(GridFailure{0, true, last.error().reason});
-  const bool uniform = is_uniform(identity, *first, *last);
-  if (uniform && first->joint.dq.isZero(0) && last->joint.dq.isZero(0))
-    return unexpected(GridFailure{0, false, "no joint of the machine moves this axis"});
-  grid_.joints = static_cast<int>(first->alpha.size());
+  if (identity && std::holds_alternative<Line>(path_.path())) {
+    // Joints are axes: nothing but the place changes on a line.
+    last = first;
+    last.s = length_;
+    last.joint.q = first.joint.q + length_ * first.joint.dq;
+  } else if (const auto why = node(length_, guess, last)) {
+    return GridFailure{0, true, why->reason};
+  }
+  const bool uniform = is_uniform(identity, first, last);
+  if (uniform && first.joint.dq.isZero(0) && last.joint.dq.isZero(0))
+    return GridFailure{0, false, "no joint of the machine moves this axis"};
+  grid_.at.clear();
+  grid_.rows.clear();
+  grid_.joints = static_cast<int>(first.alpha.size());
   grid_.uniform = uniform;
-  const double alpha = std::max(first->alpha.cwiseAbs().maxCoeff(), 1e-300);
+  const double alpha = std::max(first.alpha.cwiseAbs().maxCoeff(), 1e-300);
   if (grid_.uniform) {
     grid_.uniform_a = 1 / alpha;
-    grid_.uniform_joint = largest_of(first->alpha);
+    grid_.uniform_joint = largest_of(first.alpha);
   }
-  ramp_ = std::min(std::max(first->cap, last->cap) * alpha / 2, length_);
+  ramp_ = std::min(std::max(first.cap, last.cap) * alpha / 2, length_);
   if (std::holds_alternative<Blend>(path_.path())) {
-    const double fastest = std::sqrt(std::max(first->cap, last->cap));
+    const double fastest = std::sqrt(std::max(first.cap, last.cap));
     row_tolerance_ = length_ < moment * fastest ? moment_row_tolerance : blend_row_tolerance;
   }
-  grid_.dq_start = first->joint.dq;
+  grid_.dq_start = first.joint.dq;
   // Most pieces need no more nodes than that.
   const std::size_t few = grid_.uniform ? 2 : 3;
   grid_.at.reserve(few);
   if (!grid_.uniform) grid_.rows.reserve(few * 2 * static_cast<std::size_t>(grid_.joints));
-  add(*first);
+  add(first);
   if (grid_.uniform)
-    add(*last);
-  else if (!split(*first, *last, 0))
-    return unexpected(*failure_);
-  return MadeGrid{
-      std::move(grid_),
-      {last->joint.q, last->joint.dq, first->joint.ddq, last->joint.ddq, first->d, last->d}};
+    add(last);
+  else if (!split(first, last, 0))
+    return failure_;
+  ends_.q_end = last.joint.q;
+  ends_.dq_end = last.joint.dq;
+  ends_.ddq_start = first.joint.ddq;
+  ends_.ddq_end = last.joint.ddq;
+  ends_.d_start = first.d;
+  ends_.d_end = last.d;
+  return std::nullopt;
 }
 
 }  // namespace
 
-tl::expected<MadeGrid, GridFailure> make_grid(const machine::Kinematics& kinematics,
-                                              const Path& path, Metric metric, double feed,
-                                              const AxisValues& tool_offset,
-                                              const JointLimits& limits, const JointVector& near) {
+std::optional<GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
+                                     Metric metric, double feed, const AxisValues& tool_offset,
+                                     const JointLimits& limits, const JointVector& near,
+                                     MadeGrid& out, bool goes_on) {
   const JointPath joints(kinematics, path, tool_offset);
-  return GridMaker(joints, metric, feed, limits).make(kinematics.type() == "identity", near);
+  return GridMaker(joints, metric, feed, limits, out)
+      .make(kinematics.type() == "identity", near, goes_on);
 }
 
 }  // namespace aircut::plan

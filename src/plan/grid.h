@@ -63,10 +63,11 @@ struct GridFailure {
 };
 
 /// `near`: joints at the start. `feed` limits the tip's speed along `metric` (infinity: a rapid).
-tl::expected<MadeGrid, GridFailure> make_grid(const machine::Kinematics& kinematics,
-                                              const Path& path, Metric metric, double feed,
-                                              const AxisValues& tool_offset,
-                                              const JointLimits& limits,
-                                              const machine::JointVector& near);
+/// Fills `out`, whose memory is used again. `goes_on`: `out` holds the piece before this one, which
+/// is the other part of the same curve.
+std::optional<GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
+                                     Metric metric, double feed, const AxisValues& tool_offset,
+                                     const JointLimits& limits, const machine::JointVector& near,
+                                     MadeGrid& out, bool goes_on = false);
 
 }  // namespace aircut::plan

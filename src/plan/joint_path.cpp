@@ -12,6 +12,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 namespace aircut::plan {
 namespace {
@@ -66,21 +68,24 @@ double size_of(const AxisValues& way) {
 
 }  // namespace
 
-tl::expected<JointPoint, ReachError> joint_point(const machine::Kinematics& kinematics,
-                                                 const Target& target, const AxisValues& d_tip,
-                                                 const AxisValues& dd_tip,
-                                                 const JointVector& near) {
-  auto q = kinematics.inverse(target, near);
-  if (!q) return unexpected(q.error());
-  JointPoint out{*q, JointVector::Zero(q->size()), JointVector::Zero(q->size())};
-  const auto finite = [&out] { return out.dq.allFinite() && out.ddq.allFinite(); };
-  const ReachError singular{"the joints would need an infinite speed there (a singular pose)"};
-  if (kinematics.rates(target, *q, d_tip, dd_tip, out.dq, out.ddq)) {
-    if (!finite()) return unexpected(singular);
-    return out;
-  }
+namespace {
+
+// No error where they are found.
+std::optional<ReachError> find_joint_point(const machine::Kinematics& kinematics,
+                                           const Target& target, const AxisValues& d_tip,
+                                           const AxisValues& dd_tip, const JointVector& near,
+                                           JointPoint& out) {
+  const auto q = kinematics.inverse(target, near);
+  if (!q) return q.error();
+  out.q = *q;
+  const auto finite = [&out]() -> std::optional<ReachError> {
+    if (out.dq.allFinite() && out.ddq.allFinite()) return std::nullopt;
+    return ReachError{"the joints would need an infinite speed there (a singular pose)"};
+  };
+  if (kinematics.rates(target, *q, d_tip, dd_tip, out.dq, out.ddq)) return finite();
+  out.dq = out.ddq = JointVector::Zero(q->size());
   const double size = size_of(d_tip);
-  if (size == 0 && size_of(dd_tip) == 0) return out;
+  if (size == 0 && size_of(dd_tip) == 0) return std::nullopt;
   const Stencil stencil{kinematics, target, d_tip, dd_tip, *q};
   // 0.25 mm is far above the rounding of an inverse (1e-12 mm gives 1e-10 in q'') and far below the
   // size of a machine.
@@ -107,10 +112,22 @@ tl::expected<JointPoint, ReachError> joint_point(const machine::Kinematics& kine
     }
     coarse = fine;
   }
-  if (!best) return unexpected(singular);
-  out.dq = best->dq;
-  out.ddq = best->ddq;
-  if (!finite()) return unexpected(singular);
+  if (!best)
+    out.dq.setConstant(std::numeric_limits<double>::infinity());
+  else
+    std::tie(out.dq, out.ddq) = std::tie(best->dq, best->ddq);
+  return finite();
+}
+
+}  // namespace
+
+tl::expected<JointPoint, ReachError> joint_point(const machine::Kinematics& kinematics,
+                                                 const Target& target, const AxisValues& d_tip,
+                                                 const AxisValues& dd_tip,
+                                                 const JointVector& near) {
+  JointPoint out;
+  if (auto why = find_joint_point(kinematics, target, d_tip, dd_tip, near, out))
+    return unexpected(std::move(*why));
   return out;
 }
 
@@ -118,9 +135,9 @@ tl::expected<JointVector, ReachError> JointPath::joints(double s, const JointVec
   return kinematics_->inverse(Target{evaluate(*path_, s).p, tool_offset_}, near);
 }
 
-tl::expected<JointPoint, ReachError> JointPath::point(const PathPoint& p,
-                                                      const JointVector& near) const {
-  return joint_point(*kinematics_, Target{p.p, tool_offset_}, p.d, p.dd, near);
+std::optional<ReachError> JointPath::point(const PathPoint& p, const JointVector& near,
+                                           JointPoint& out) const {
+  return find_joint_point(*kinematics_, Target{p.p, tool_offset_}, p.d, p.dd, near, out);
 }
 
 }  // namespace aircut::plan

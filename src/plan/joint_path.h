@@ -16,8 +16,8 @@ class JointPath {
       double s, const machine::JointVector& near) const;
   /// Joints with derivatives at a point of the path; the error also says when they are not finite
   /// (a singular pose).
-  tl::expected<JointPoint, machine::ReachError> point(const PathPoint& p,
-                                                      const machine::JointVector& near) const;
+  std::optional<machine::ReachError> point(const PathPoint& p, const machine::JointVector& near,
+                                           JointPoint& out) const;
   const Path& path() const { return *path_; }
   const AxisValues& tool_offset() const { return tool_offset_; }
 

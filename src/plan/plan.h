@@ -5,6 +5,7 @@
 //   push(Command) ─► look-ahead window ─► take() ─► Segment: geometry and s(t)
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -94,6 +95,7 @@ enum class LimitedBy : unsigned char { none, feed, velocity, acceleration, jerk 
 struct Cause {
   LimitedBy by = LimitedBy::none;
   signed char joint = -1;  ///< JointId; −1: no joint's, as the feed
+  auto operator<=>(const Cause&) const = default;
 };
 
 /// s(t) as polynomial pieces; the last knot is the end.

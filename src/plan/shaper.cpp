@@ -61,6 +61,7 @@ Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, doub
       limits_(limits_of(machine)),
       period_(period),
       chain_(max_nodes, machine.kinematics(), limits_, start, period),
+      linear_joints_(machine.kinematics().type() == "identity"),
       joints_(std::move(start)),
       scratch_(std::max(machine.tree().size(), static_cast<std::size_t>(machine.joint_count()) +
                                                    machine.kinematics().passive_names().size())) {}
@@ -82,14 +83,22 @@ Shaper::Corner Shaper::corner_to(const Move& right) const {
     // A side that starts at rest may give more than half; all of it would leave no room to start.
     const double left_room = std::min(left_length - begin_, (at_rest_ ? 0.9 : 0.5) * left_length);
     const double feed = std::min(left.feed, right.feed);
-    const CornerShape shape{left.segment.path, right.segment.path,
-                            left_room,         length(right.segment.path) / 2,
-                            right.tolerance,   machine_.kinematics().type() == "identity"};
+    const CornerShape shape{left.segment.path, right.segment.path, left_room,
+                            length(right.segment.path) / 2, right.tolerance};
     const auto load = [&](const Blend& blend) {
       return load_of(machine_.kinematics(), blend, feed, left.segment.tool_offset, limits_,
                      joints_);
     };
-    if (auto corner = make_blend(shape, [&](const Blend& b) { return load(b).demand(); })) {
+    const auto load_between = [&](const CornerRates& rates, double cut) {
+      return line_load(in, out, rates, cut, feed);
+    };
+    Demand demand;
+    demand.of_blend = [&load](const Blend& b) { return load(b).demand(); };
+    if (linear_joints_)
+      demand.of_lines = [&load_between](const CornerRates& rates, double cut) {
+        return load_between(rates, cut).demand();
+      };
+    if (auto corner = make_blend(shape, demand)) {
       if (!limits_.has_jerk()) return *corner;
       const double shorter = std::min(left_length, length(right.segment.path));
       if (stop_is_faster(load(corner->blend), corner->blend, corner->cut, shorter)) return Rest{};
@@ -98,6 +107,19 @@ Shaper::Corner Shaper::corner_to(const Move& right) const {
   }
   if (angle <= pass_angle) return Pass{};
   return Rest{};
+}
+
+// What a blend between two lines asks, by their directions (p' at the corner). Joints are linear in
+// the tip, so one joint point tells the joints' directions.
+CornerLoad Shaper::line_load(const AxisValues& in, const AxisValues& out, const CornerRates& rates,
+                             double cut, double feed) const {
+  const machine::Kinematics& kinematics = machine_.kinematics();
+  machine::JointVector dq_in, dq_out, none;
+  kinematics.rates({}, joints_, in, {}, dq_in, none);
+  kinematics.rates({}, joints_, out, {}, dq_out, none);
+  double cosine = 0;
+  for (const Axis axis : {Axis::x, Axis::y, Axis::z}) cosine += in[axis] * out[axis];
+  return load_of_lines(rates, cut, dq_in, dq_out, cosine, feed, limits_);
 }
 
 void Shaper::push(Move move) {
@@ -142,12 +164,12 @@ std::optional<Shaper::StraightRun> Shaper::straight_run(const Line& line,
   if (failed_) return std::nullopt;
   if (find_reach_limit(machine_.kinematics(), line, tool_offset, joints_, scratch_))
     return std::nullopt;
-  const auto made = make_grid(machine_.kinematics(), line, metric_of(line), infinity, tool_offset,
-                              limits_, joints_);
-  if (!made) return std::nullopt;
-  const Grid& grid = made->grid;
+  if (make_grid(machine_.kinematics(), line, metric_of(line), infinity, tool_offset, limits_,
+                joints_, made_))
+    return std::nullopt;
+  const Grid& grid = made_.grid;
   StraightRun out;
-  out.end = made->ends.q_end;
+  out.end = made_.ends.q_end;
   const machine::JointVector rate = limits_.j.cwiseQuotient(limits_.a);
   const auto limit = [&](const double* alpha) {
     double a = infinity, j = infinity;
@@ -227,7 +249,7 @@ void Shaper::add_blend(const Move& left, const Move& right, const CornerBlend& c
   add(std::move(in), Metric::xyz, feed);
   if (failed_) return;
   for (Segment& still : after) chain_.push_still(std::move(still));
-  add(std::move(out), Metric::xyz, right.feed);
+  add(std::move(out), Metric::xyz, right.feed, true);
 }
 
 // What is left of a move between two values of its s; a chord goes out line by line.
@@ -263,8 +285,9 @@ void Shaper::add_range(Move& move, double begin, double end) {
   }
 }
 
-// Gives a piece to the chain, or its good part and the failure.
-void Shaper::add(Segment&& segment, Metric metric, double feed) {
+// Gives a piece to the chain, or its good part and the failure. `goes_on`: the piece before is the
+// other part of the same curve.
+void Shaper::add(Segment&& segment, Metric metric, double feed, bool goes_on) {
   const machine::Kinematics& kinematics = machine_.kinematics();
   const double whole = length(segment.path);
   if (const auto limit =
@@ -279,18 +302,18 @@ void Shaper::add(Segment&& segment, Metric metric, double feed) {
   }
   // A piece that turns singular on the way is cut there and tried again.
   for (int tries = 0; length(segment.path) > 1e-9 * whole; ++tries) {
-    auto made =
-        make_grid(kinematics, segment.path, metric, feed, segment.tool_offset, limits_, joints_);
-    if (made) {
-      append(std::move(segment), std::move(*made));
+    const auto problem = make_grid(kinematics, segment.path, metric, feed, segment.tool_offset,
+                                   limits_, joints_, made_, goes_on && tries == 0);
+    if (!problem) {
+      append(std::move(segment));
       return;
     }
     const double here = length(segment.path);
-    const double good = tries < 8 ? std::min(made.error().s, 0.999 * here) : 0;
+    const double good = tries < 8 ? std::min(problem->s, 0.999 * here) : 0;
     const double fraction = segment.u0 + (segment.u1 - segment.u0) * good / here;
-    if (!segment.failure || !made.error().singular)
-      segment.failure = Failure{made.error().singular ? "singular" : "unreachable",
-                                made.error().reason, fraction, evaluate(segment.path, good).p};
+    if (!segment.failure || !problem->singular)
+      segment.failure = Failure{problem->singular ? "singular" : "unreachable", problem->reason,
+                                fraction, evaluate(segment.path, good).p};
     segment.path = sub_path(segment.path, 0, good);
     segment.u1 = fraction;
     failed_ = true;
@@ -303,40 +326,39 @@ void Shaper::add(Segment&& segment, Metric metric, double feed) {
 
 // Squared speed at which a joint can take the jumps of its direction and curvature: by differences
 // over the period T they count as jerks |Δq'| v / T² and 3/4 |Δq''| v² / T.
-double Shaper::jerk_entry(const MadeGrid& made, double scale) const {
+double Shaper::jerk_entry(double scale) const {
   double least = infinity;
   for (Eigen::Index j = 0; j < limits_.j.size(); ++j) {
     if (std::isinf(limits_.j[j])) continue;
-    const double kink = std::abs(made.grid.dq_start[j] - dq_end_[j] / scale);
-    const double bend = std::abs(made.ends.ddq_start[j] - ddq_end_[j] / (scale * scale));
+    const double kink = std::abs(made_.grid.dq_start[j] - dq_end_[j] / scale);
+    const double bend = std::abs(made_.ends.ddq_start[j] - ddq_end_[j] / (scale * scale));
     const double v = kink_jerk_share * limits_.j[j] * period_ * period_ / kink;
     least = std::min({least, v * v, bend_jerk_share * limits_.j[j] * period_ / bend});
   }
   return least;
 }
 
-void Shaper::append(Segment&& segment, MadeGrid&& made) {
-  const AxisValues& d = made.ends.d_start;
-  const Grid& grid = made.grid;
-  Piece piece;
+// The piece that make_grid() has looked at.
+void Shaper::append(Segment&& segment) {
+  const AxisValues& d = made_.ends.d_start;
+  const Grid& grid = made_.grid;
+  double entry = 0, per_exit = 1;
   if (!at_rest_) {
     const double scale = mixed_norm(d_end_) / mixed_norm(d);  // path speed here per speed before
-    piece.per_exit = scale * scale;
+    per_exit = scale * scale;
     const machine::JointVector jump =
         (grid.dq_start - dq_end_ / scale).cwiseQuotient(limits_.a) / (jump_share * period_);
     const double fastest = 1 / jump.cwiseAbs().maxCoeff();
-    piece.entry = std::min({fastest * fastest, grid.at.front().cap, jerk_entry(made, scale)});
+    entry = std::min({fastest * fastest, grid.at.front().cap, jerk_entry(scale)});
     // So slow that standing still for a moment costs nothing.
-    if (piece.entry < 1e-6 * grid.at.front().cap) piece.entry = 0;
+    if (entry < 1e-6 * grid.at.front().cap) entry = 0;
   }
   at_rest_ = false;
-  joints_ = made.ends.q_end;
-  d_end_ = made.ends.d_end;
-  dq_end_ = made.ends.dq_end;
-  ddq_end_ = made.ends.ddq_end;
-  piece.segment = std::move(segment);
-  piece.grid = std::move(made.grid);
-  chain_.push(std::move(piece));
+  joints_ = made_.ends.q_end;
+  d_end_ = made_.ends.d_end;
+  dq_end_ = made_.ends.dq_end;
+  ddq_end_ = made_.ends.ddq_end;
+  chain_.push(std::move(segment), made_.grid, entry, per_exit);
   if (failed_) chain_.stop();
 }
 

@@ -3,6 +3,7 @@
 
 #include "plan/blend.h"
 #include "plan/chain.h"
+#include "plan/corner_load.h"
 #include "plan/s_curve.h"
 
 namespace aircut::plan {
@@ -60,12 +61,14 @@ class Shaper {
   using Corner = std::variant<Rest, Pass, CornerBlend>;
 
   Corner corner_to(const Move& right) const;
-  double jerk_entry(const MadeGrid& made, double scale) const;
+  double jerk_entry(double scale) const;
+  CornerLoad line_load(const AxisValues& in, const AxisValues& out, const CornerRates& rates,
+                       double cut, double feed) const;
   void finish_pending();
   void add_blend(const Move& left, const Move& right, const CornerBlend& corner);
   void add_range(Move& move, double begin, double end);
-  void add(Segment&& segment, Metric metric, double feed);
-  void append(Segment&& segment, MadeGrid&& made);
+  void add(Segment&& segment, Metric metric, double feed, bool goes_on = false);
+  void append(Segment&& segment);
 
   const machine::Machine& machine_;
   JointLimits limits_;
@@ -74,12 +77,14 @@ class Shaper {
   std::optional<Move> pending_;            ///< its end is not final
   double begin_ = 0, end_ = 0;             ///< what is left of the pending move, along its s
   std::vector<Segment> after_;             ///< stand-still segments behind the pending move
+  bool linear_joints_;                     ///< in the tip, so that no joint bends on a line
   bool at_rest_ = true;                    ///< the next piece starts from rest
   machine::JointVector joints_;            ///< at the end of what went into the chain
   machine::JointVector dq_end_, ddq_end_;  ///< q' and q'' at the end of the last piece
   AxisValues d_end_;                       ///< tip's derivative there
   bool failed_ = false;
   std::vector<double> scratch_;
+  MadeGrid made_;  ///< of the piece that is being added
 };
 
 }  // namespace aircut::plan

@@ -63,7 +63,6 @@ class Interval {
     const Room room = room_at(b);
     return room.high >= room.low ? room.high : (room.high + room.low) / 2;
   }
-  double ds() const { return ds_; }
 
  private:
   void add(double p, double q) {
@@ -136,8 +135,28 @@ Cause cause_at(const Grid& grid, std::size_t node, double b0, double b1, double 
   return out;
 }
 
+// True where every row allows going from b0 to b1 over the interval behind `node`; then the highest
+// speed that is asked for at either end is reached and nothing needs to be solved.
+bool allows(const Grid& grid, std::size_t node, double b0, double b1, double u) {
+  const double *alpha0 = grid.alpha(node), *beta0 = grid.beta(node);
+  const double *alpha1 = grid.alpha(node + 1), *beta1 = grid.beta(node + 1);
+  const double room = grid.at[node].room;
+  bool good = true;
+  for (int j = 0; j < grid.joints; ++j)
+    good = good & (std::abs(alpha0[j] * u + beta0[j] * b0) <= room) &
+           (std::abs(alpha1[j] * u + beta1[j] * b1) <= room);
+  return good;
+}
+
+// The acceleration from b0 to b1 over the interval behind `node`, rounded as an Interval does it.
+double acceleration_to(const Grid& grid, std::size_t node, double b0, double b1) {
+  const double ramp = 1 / (2 * (grid.at[node + 1].s - grid.at[node].s));
+  return b1 * ramp - ramp * b0;
+}
+
 struct RideMaker {
   Ride ride;
+  CauseTimes spent;
   double t = 0;
   double s = 0;
 
@@ -147,9 +166,16 @@ struct RideMaker {
     const double v0 = std::sqrt(b0), v1 = std::sqrt(b1);
     const double dt = 2 * ds / (v0 + v1);
     ride.profile.knots.push_back({t, s, v0, (b1 - b0) / (2 * ds), 0});
-    ride.spent.add(cause, dt);
+    spent.add(cause, dt);
     t += dt;
     s += ds;
+  }
+
+  Ride finish(double length, double b_end) {
+    ride.profile.knots.push_back({t, length, std::sqrt(b_end), 0, 0});
+    ride.b_end = b_end;
+    ride.limited_by = spent.longest();
+    return std::move(ride);
   }
 };
 
@@ -166,22 +192,30 @@ Ride ride_uniform(const Grid& grid, double b_start, double b_end) {
   maker.go(up, b_start, peak, ramp);
   if (peak >= cap) maker.go(cruise, peak, peak, grid.at.front().why);
   maker.go(down, peak, b_end, ramp);
-  maker.ride.profile.knots.push_back({maker.t, length, std::sqrt(b_end), 0, 0});
-  maker.ride.b_end = b_end;
-  return std::move(maker.ride);
+  return maker.finish(length, b_end);
 }
 
 }  // namespace
 
+void CauseTimes::add(Cause cause, double seconds) {
+  for (std::size_t i = 0; i < count_; ++i)
+    if (cause_[i] == cause) {
+      seconds_[i] += seconds;
+      return;
+    }
+  cause_[count_] = cause;
+  seconds_[count_++] = seconds;
+}
+
 Cause CauseTimes::longest() const {
   Cause out;
-  double most = 0;
-  for (std::size_t by = 0; by < time_.size(); ++by)
-    for (std::size_t j = 0; j < time_[by].size(); ++j)
-      if (time_[by][j] > most) {
-        most = time_[by][j];
-        out = {static_cast<LimitedBy>(by), static_cast<signed char>(static_cast<int>(j) - 1)};
-      }
+  double longest = 0;
+  // Between equals the first in the order of causes and joints, whatever came first on the way.
+  for (std::size_t i = 0; i < count_; ++i)
+    if (seconds_[i] > longest || (seconds_[i] == longest && longest > 0 && cause_[i] < out)) {
+      longest = seconds_[i];
+      out = cause_[i];
+    }
   return out;
 }
 
@@ -193,7 +227,12 @@ void brake(const Grid& grid, double b_end, Controllable& out) {
     out[0] = std::min(grid.at[0].cap, out[n - 1] + 2 * grid.uniform_a * grid.length());
     return;
   }
-  for (std::size_t k = n - 1; k-- > 0;) out[k] = Interval(grid, k, out[k + 1]).largest_b();
+  for (std::size_t k = n - 1; k-- > 0;) {
+    const double cap = grid.at[k].cap, next = out[k + 1];
+    out[k] = allows(grid, k, cap, next, acceleration_to(grid, k, cap, next))
+                 ? cap
+                 : Interval(grid, k, next).largest_b();
+  }
 }
 
 Ride accelerate(const Grid& grid, const Controllable& controllable, double b_start) {
@@ -202,15 +241,14 @@ Ride accelerate(const Grid& grid, const Controllable& controllable, double b_sta
   maker.ride.profile.knots.reserve(grid.nodes());
   double b = b_start;
   for (std::size_t k = 0; k + 1 < grid.nodes(); ++k) {
-    const Interval interval(grid, k, controllable[k + 1]);
-    const double u = interval.largest_u(b);
-    const double next = std::clamp(b + 2 * u * interval.ds(), 0.0, controllable[k + 1]);
-    maker.go(interval.ds(), b, next, cause_at(grid, k, b, next, u));
+    const double ds = grid.at[k + 1].s - grid.at[k].s, most = controllable[k + 1];
+    double u = acceleration_to(grid, k, b, most);
+    if (!allows(grid, k, b, most, u)) u = Interval(grid, k, most).largest_u(b);
+    const double next = std::clamp(b + 2 * u * ds, 0.0, most);
+    maker.go(ds, b, next, cause_at(grid, k, b, next, u));
     b = next;
   }
-  maker.ride.profile.knots.push_back({maker.t, grid.length(), std::sqrt(b), 0, 0});
-  maker.ride.b_end = b;
-  return std::move(maker.ride);
+  return maker.finish(grid.length(), b);
 }
 
 }  // namespace aircut::plan

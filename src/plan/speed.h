@@ -16,21 +16,22 @@ void brake(const Grid& grid, double b_end, Controllable& out);
 /// How long each cause held the speed.
 class CauseTimes {
  public:
-  void add(Cause cause, double seconds) {
-    time_[static_cast<std::size_t>(cause.by)][static_cast<std::size_t>(cause.joint + 1)] += seconds;
-  }
+  void add(Cause cause, double seconds);
   /// The cause with the most time.
   Cause longest() const;
 
  private:
-  std::array<std::array<double, machine::max_joints + 1>, 5> time_{};
+  static constexpr std::size_t most = 5 * (machine::max_joints + 1);
+  std::array<Cause, most> cause_;  ///< none twice
+  std::array<double, most> seconds_;
+  std::size_t count_ = 0;
 };
 
 /// Result of carrying a piece out.
 struct Ride {
   SpeedProfile profile;
   double b_end = 0;
-  CauseTimes spent;
+  Cause limited_by;  ///< longest
 };
 
 /// The fastest ride from b_start, given what brake() found.

@@ -131,7 +131,7 @@ TEST(Blend, RunsAlmostAtUnitSpeed) {
     const Line left = make_line(xyz(-10, 0, 0), xyz(0, 0, 0));
     const Line right = make_line(xyz(0, 0, 0), xyz(10 * std::cos(turn), 10 * std::sin(turn), 0));
     const Path in = left, out = right;
-    const auto made = make_blend({in, out, 5, 5, 0.02}, [](const Blend&) { return 1.0; });
+    const auto made = make_blend({in, out, 5, 5, 0.02}, {[](const Blend&) { return 1.0; }, {}});
     ASSERT_TRUE(made);
     double worst = 0;
     for (int k = 0; k <= 200; ++k) {
@@ -140,6 +140,37 @@ TEST(Blend, RunsAlmostAtUnitSpeed) {
       worst = std::max(worst, std::abs(speed - 1));
     }
     EXPECT_LT(worst, turn < 2.6 ? 1e-3 : 1e-2) << turn;
+  }
+}
+
+TEST(Blend, BetweenLinesIsBuiltOfTheirDirectionsAsItsRatesSay) {
+  for (const double turn : {0.0025, 0.3, 1.1, 1.7, 2.5}) {
+    AxisValues in = xyz(-10, 0, 0), out = xyz(7 * std::cos(turn), 7 * std::sin(turn), 0);
+    in[Axis::b] = 0.001;
+    out[Axis::c] = 0.002;
+    const Path left = make_line(in, {}), right = make_line({}, out);
+    CornerRates rates;
+    double cut = 0;
+    Demand demand{[](const Blend&) { return 1.0; },
+                  [&](const CornerRates& r, double c) {
+                    rates = r;
+                    cut = c;
+                    return 1.0;
+                  }};
+    const auto made = make_blend({left, right, 3, 3, 0.02}, demand);
+    ASSERT_TRUE(made);
+    EXPECT_EQ(cut, made->cut);
+    EXPECT_NEAR(rates.length * cut, made->blend.length, 1e-9);
+    const AxisValues d_in = evaluate(left, 1).d, d_out = evaluate(right, 1).d;
+    for (std::size_t k = 0; k < rates.at.size(); ++k) {
+      const auto& [d, dd] = rates.at[k];
+      const PathPoint p = evaluate(made->blend, made->blend.length * static_cast<double>(k) / 8);
+      for (const Axis axis : all_axes) {
+        EXPECT_NEAR(d[0] * d_in[axis] + d[1] * d_out[axis], p.d[axis], 1e-4) << turn;
+        EXPECT_NEAR((dd[0] * d_in[axis] + dd[1] * d_out[axis]) / cut, p.dd[axis], 1e-2 * turn / cut)
+            << turn << " place " << k;
+      }
+    }
   }
 }
 
