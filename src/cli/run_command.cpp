@@ -170,15 +170,16 @@ Expected<void> write_part(const RunArguments& a, const sim::Simulator& simulator
     if (auto ok = listed("part.stl", stl_bytes(*mesh)); !ok) return ok;
     if (auto ok = listed("part.3mf", report::three_mf_bytes(*mesh)); !ok) return ok;
   }
-  if (!report.summary.part) return {};
-  const std::vector<double> outside = simulator.deviation(*mesh);
+  const auto compared = simulator.deviation();
+  if (!report.summary.part || !compared) return {};
   const report::DeviationScale scale(*report.summary.part);
-  if (auto ok = listed("deviation.ply", report::ply_bytes(*mesh, outside, scale.colors(outside)));
+  if (auto ok = listed("deviation.ply", report::ply_bytes(compared->mesh, compared->outside,
+                                                          scale.colors(compared->outside)));
       !ok)
     return ok;
   if (!wants_frames(a)) return {};
-  const auto picture =
-      report::deviation_picture(*mesh, outside, scale, {.width = a.width, .height = a.height});
+  const auto picture = report::deviation_picture(compared->mesh, compared->outside, scale,
+                                                 {.width = a.width, .height = a.height});
   if (!picture) return unexpected(picture.error());
   return listed("deviation.png", render::png_bytes(*picture));
 }

@@ -276,9 +276,13 @@ class Simulator {
   std::optional<TriangleMesh> part() const;
   /// The same stock for another job (stock.h, Stock::save); likewise.
   std::optional<std::string> saved_stock() const;
-  /// How far each vertex of a mesh in the stock's frame is outside of the design, mm; empty when
-  /// there is no design part.
-  std::vector<double> deviation(const TriangleMesh& mesh) const;
+  /// The part with a vertex in every cell, and how far each is outside of the design, mm.
+  struct ComparedPart {
+    TriangleMesh mesh;
+    std::vector<double> outside;
+  };
+  /// Empty when there is no design part.
+  std::optional<ComparedPart> deviation() const;
   /// Null when there was no stock or the cuts were not kept. Error kind `output_failed`.
   /// It is cut on a lattice of at most `steps` to its longest side; the default is finer than a
   /// picture's pixels.

@@ -37,9 +37,11 @@ std::optional<std::string> Simulator::saved_stock() const {
   return cutting_->stock()->save();
 }
 
-std::vector<double> Simulator::deviation(const TriangleMesh& mesh) const {
-  if (!cutting_ || !cutting_->part()) return {};
-  return cutting_->part()->outside(mesh);
+std::optional<Simulator::ComparedPart> Simulator::deviation() const {
+  if (!cutting_ || !cutting_->stock() || !cutting_->part()) return std::nullopt;
+  ComparedPart out{cutting_->stock()->mesh(stock::Facets::lattice), {}};
+  out.outside = cutting_->part()->outside(out.mesh);
+  return out;
 }
 
 Expected<std::unique_ptr<StockHistory>> Simulator::stock_history(double steps) {

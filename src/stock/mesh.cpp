@@ -12,6 +12,9 @@
 // kept apart), and on such a face, where two sheets might share an edge of the mesh, both polygons
 // get a vertex of their own. Vertices stay off the cells' faces by a thousandth of a cell, so no
 // two fall together.
+//
+// Squares are put together where the surface is flat or straight (merged_faces.h): most of what is
+// milled is, and few triangles say so as well as many.
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
@@ -22,12 +25,14 @@
 #include <unordered_map>
 
 #include "stock/impl.h"
+#include "stock/merged_faces.h"
 
 namespace aircut::stock {
 namespace {
 
 constexpr double off_face = 1e-3;        // of a cell: vertices keep this far from its faces
 constexpr double flat_direction = 0.02;  // of the largest eigenvalue: says nothing
+constexpr double on_line = 5e-4;         // of a cell: a vertex so near a line is on it
 constexpr double end_missing = 0.05;     // of a cell
 
 /// Nodes of a brick that are inside: a row of bits along X for each (k, j).
@@ -72,12 +77,19 @@ NodeBits node_bits(const Brick& brick, std::size_t& disagreeing) {
 struct CellVertices {
   std::uint32_t first = 0;
   std::array<std::uint8_t, 12> sheet{};
+  /// Where the surface is flat, across an axis, and nothing else is in the cell.
+  std::int8_t flat_axis = -1;
+  std::uint16_t flat_end = 0;  ///< quanta from the brick's border
 };
 
 class Mesher {
  public:
-  Mesher(const Stock::Impl& stock, TriangleMesh& out, MeshStatistics& statistics)
-      : stock_(stock), lattice_(stock.lattice), out_(out), statistics_(statistics) {}
+  Mesher(const Stock::Impl& stock, Facets facets, TriangleMesh& out, MeshStatistics& statistics)
+      : stock_(stock),
+        lattice_(stock.lattice),
+        merged_(facets == Facets::merged),
+        out_(out),
+        statistics_(statistics) {}
 
   void run() {
     for (int k = -1; k < lattice_.bricks[2]; ++k) {
@@ -85,6 +97,7 @@ class Mesher {
         for (int i = -1; i < lattice_.bricks[0]; ++i) brick({i, j, k});
       forget_below(k);
     }
+    if (merged_) faces_together_.triangulate(out_);
   }
 
  private:
@@ -132,8 +145,10 @@ class Mesher {
 
   // ---- one brick's cells and polygons ----
 
-  bool inside(int i, int j, int k) const {
-    return window_[static_cast<std::size_t>(((k + 1) * window + j + 1) * window + i + 1)] != 0;
+  bool inside(int i, int j, int k) const { return (row(j, k) >> (i + 1) & 1) != 0; }
+  /// Bits of the nodes −1 … 16 along X.
+  unsigned row(int j, int k) const {
+    return window_[static_cast<std::size_t>((k + 1) * window + j + 1)];
   }
   bool inside(const Index3& n) const { return inside(n[0], n[1], n[2]); }
 
@@ -153,12 +168,14 @@ class Mesher {
     const auto [i0, i1] = range(d[0]);
     const auto [j0, j1] = range(d[1]);
     const auto [k0, k1] = range(d[2]);
+    const unsigned in_range = (1u << i1) - (1u << i0);
     for (int k = k0; k < k1; ++k)
       for (int j = j0; j < j1; ++j) {
-        const unsigned row = full ? 0xffffu : (*bits)[static_cast<std::size_t>(k * cells + j)];
-        const int place =
-            ((k + d[2] * cells + 1) * window + j + d[1] * cells + 1) * window + d[0] * cells + 1;
-        for (int i = i0; i < i1; ++i) window_[static_cast<std::size_t>(place + i)] = row >> i & 1;
+        const unsigned nodes = full ? 0xffffu : (*bits)[static_cast<std::size_t>(k * cells + j)];
+        const int to = d[0] * cells + 1;  // of its first node
+        const unsigned moved = to >= 0 ? (nodes & in_range) << to : (nodes & in_range) >> -to;
+        window_[static_cast<std::size_t>((k + d[2] * cells + 1) * window + j + d[1] * cells + 1)] |=
+            moved;
       }
   }
 
@@ -170,12 +187,37 @@ class Mesher {
     if (!mixed) return;
     brick_ = b;
     load_window();
+    const auto each_bit = [](unsigned bits, const auto& see) {
+      for (; bits != 0; bits &= bits - 1) see(std::countr_zero(bits));
+    };
+    // Bit i + 1 of a row is node i; cell i is between nodes i and i + 1.
+    constexpr unsigned own = 0xffffu;
     for (int k = 0; k < cells; ++k)
-      for (int j = 0; j < cells; ++j)
-        for (int i = 0; i < cells; ++i) cell({i, j, k});
+      for (int j = 0; j < cells; ++j) {
+        const std::array<unsigned, 4> rows = {row(j, k), row(j + 1, k), row(j, k + 1),
+                                              row(j + 1, k + 1)};
+        const unsigned any = rows[0] | rows[1] | rows[2] | rows[3];
+        const unsigned all = rows[0] & rows[1] & rows[2] & rows[3];
+        each_bit(((any | any >> 1) & ~(all & all >> 1)) >> 1 & own, [&](int i) {
+          cell({i, j, k});
+        });
+      }
     for (int k = 0; k < cells; ++k)
-      for (int j = 0; j < cells; ++j)
-        for (int i = 0; i < cells; ++i) polygons({i, j, k});
+      for (int j = 0; j < cells; ++j) {
+        const unsigned nodes = row(j, k);
+        const unsigned ends =
+            (nodes ^ nodes >> 1) | (nodes ^ row(j + 1, k)) | (nodes ^ row(j, k + 1));
+        each_bit(ends >> 1 & own, [&](int i) { polygons({i, j, k}); });
+      }
+    if (!merged_) return;
+    straight_.resize(out_.vertices.size());
+    for (const FaceSquare& alone :
+         squares_.merge(out_.vertices, straight_, on_line * lattice_.pitch, faces_together_)) {
+      corners_.assign(alone.corners.begin(), alone.corners.end());
+      on_faces_.clear();
+      if (!alone.forward) std::reverse(corners_.begin(), corners_.end());
+      triangulate();
+    }
   }
 
   /// A number for a node or cell anywhere in the lattice, −1 included.
@@ -201,11 +243,31 @@ class Mesher {
     CellVertices& v = it->second.first;
     v.first = static_cast<std::uint32_t>(out_.vertices.size());
     const int sheets = find_sheets(corners, v.sheet);
-    for (int s = 0; s < sheets; ++s) out_.vertices.push_back(place(n, corners, v.sheet, s));
+    for (int s = 0; s < sheets; ++s) {
+      const Ends ends = ends_of(n, corners, v.sheet, s);
+      out_.vertices.push_back(place(n, ends));
+      if (sheets == 1 && ends.flat()) {
+        v.flat_axis = static_cast<std::int8_t>(ends.found[0].axis);
+        v.flat_end = static_cast<std::uint16_t>(ends.found[0].end);
+      }
+      if (sheets == 1 && ends.count == 4) {
+        straight_.resize(out_.vertices.size());
+        straight_.back() = same_along(corners);
+      }
+    }
     for (std::size_t a = v.first; a < out_.vertices.size(); ++a)  // two sheets in one place: apart
       for (std::size_t b = v.first; b < a; ++b)
         if (out_.vertices[a] == out_.vertices[b])
           out_.vertices[a] += off_face * 0.5 * lattice_.pitch * Vec3(0.3, 0.5, 0.7);
+  }
+
+  /// A bit for each axis along which the corners are the same at both ends.
+  static std::uint8_t same_along(unsigned corners) {
+    constexpr std::array<unsigned, 3> low = {0x55, 0x33, 0x0f};
+    unsigned out = 0;
+    for (unsigned a = 0; a < 3; ++a)
+      if ((corners & low[a]) == (corners >> (1u << a) & low[a])) out |= 1u << a;
+    return static_cast<std::uint8_t>(out);
   }
 
   static int corner_of(int axis, int b, int c, int along) {
@@ -272,7 +334,18 @@ class Mesher {
   }
 
   struct Crossing {
-    Vec3 point, normal;
+    Vec3 point;
+    int axis = 0, end = 0;  ///< end: quanta from the brick's border along the axis
+    NormalCode code = 0;
+    bool leaving = false;
+
+    /// Of the surface, outward; that of the ray where the end has none.
+    Vec3 normal() const {
+      return code != 0 ? decode_normal(code) : Vec3(Vec3::Unit(axis) * (leaving ? 1.0 : -1.0));
+    }
+    bool same_normal(const Crossing& o) const {
+      return code != 0 ? code == o.code : o.code == 0 && axis == o.axis && leaving == o.leaving;
+    }
   };
 
   /// The end between a node and the next along an axis.
@@ -313,30 +386,58 @@ class Mesher {
       if (!(best < quanta_per_cell)) place_at = quanta_per_cell / 2.0;
     }
     const double along = std::clamp(place_at / quanta_per_cell, off_face, 1 - off_face);
-    Crossing out{node(n) + along * lattice_.pitch * Vec3::Unit(axis),
-                 code != 0 ? decode_normal(code) : Vec3(Vec3::Unit(axis) * (leaving ? 1.0 : -1.0))};
-    return out;
+    return {node(n) + along * lattice_.pitch * Vec3::Unit(axis), axis,
+            static_cast<int>(place_at) + from, code, leaving};
   }
 
-  Vec3 place(const Index3& n, unsigned corners, const std::array<std::uint8_t, 12>& sheet, int s) {
+  /// The ends of one sheet in a cell.
+  struct Ends {
     std::array<Crossing, 12> found;
     std::size_t count = 0;
+
+    bool one_normal() const {
+      for (std::size_t i = 1; i < count; ++i)
+        if (!found[i].same_normal(found[0])) return false;
+      return true;
+    }
+    /// All four ends along one axis at one height.
+    bool flat() const {
+      if (count != 4 || !one_normal()) return false;
+      for (std::size_t i = 1; i < count; ++i)
+        if (found[i].axis != found[0].axis || found[i].end != found[0].end) return false;
+      return true;
+    }
+  };
+
+  Ends ends_of(const Index3& n, unsigned corners, const std::array<std::uint8_t, 12>& sheet,
+               int s) {
+    Ends out;
     for (int axis = 0; axis < 3; ++axis)
       for (int o = 0; o < 4; ++o) {
         const int b = o & 1, c = o >> 1;
         if (!crossed(corners, axis, b, c)) continue;
         if (sheet[static_cast<std::size_t>(edge_number(axis, b, c))] != s) continue;
         const int corner = corner_of(axis, b, c, 0);
-        found[count++] =
+        out.found[out.count++] =
             crossing({n[0] + (corner & 1), n[1] + (corner >> 1 & 1), n[2] + (corner >> 2)}, axis);
       }
+    return out;
+  }
+
+  Vec3 place(const Index3& n, const Ends& ends) const {
+    const auto& [found, count] = ends;
     Vec3 mean = Vec3::Zero();
     for (std::size_t i = 0; i < count; ++i) mean += found[i].point;
     mean /= static_cast<double>(count);
+    const Vec3 low = node(n), edge = Vec3::Constant(off_face * lattice_.pitch);
+    const auto in_cell = [&](const Vec3& v) -> Vec3 {
+      return v.cwiseMax(low + edge).cwiseMin(low + Vec3::Constant(lattice_.pitch) - edge);
+    };
+    if (ends.one_normal()) return in_cell(mean);  // already in the plane that fits best
     Mat3 squares = Mat3::Zero();
     Vec3 right = Vec3::Zero();
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3& normal = found[i].normal;
+      const Vec3 normal = found[i].normal();
       squares += normal * normal.transpose();
       right += normal * normal.dot(found[i].point - mean);
     }
@@ -347,10 +448,7 @@ class Mesher {
       if (value < flat_direction * eigen.eigenvalues()[2]) continue;
       shift += eigen.eigenvectors().col(d) * (eigen.eigenvectors().col(d).dot(right) / value);
     }
-    const Vec3 low = node(n), edge = Vec3::Constant(off_face * lattice_.pitch);
-    return (mean + shift)
-        .cwiseMax(low + edge)
-        .cwiseMin(low + Vec3::Constant(lattice_.pitch) - edge);
+    return in_cell(mean + shift);
   }
 
   void polygons(const Index3& n) {
@@ -365,15 +463,28 @@ class Mesher {
     constexpr std::array<std::array<int, 2>, 4> around = {{{-1, -1}, {0, -1}, {0, 0}, {-1, 0}}};
     corners_.clear();
     on_faces_.clear();
+    std::array<const CellVertices*, 4> of{};
     for (std::size_t side = 0; side < 4; ++side) {
       const auto [dp, dq] = around[side];
       const Index3 cell = step(step(n, p, dp), q, dq);
       const CellVertices& v = cells_.at(key(cell)).first;
+      of[side] = &v;
       corners_.push_back(v.first + v.sheet[static_cast<std::size_t>(edge_number(axis, -dp, -dq))]);
       // The face to the next cell holds the edge and leaves it towards −q, +p, +q, −p.
       const int away = side % 2 == 0 ? q : p;
       const int by = side == 0 || side == 3 ? -1 : 1;
       face_vertex(n, axis, away, by);
+    }
+    if (merged_ && corners_.size() == 4) {
+      const bool flat = std::ranges::all_of(of, [&](const CellVertices* v) {
+        return v->flat_axis == axis && v->flat_end == of[0]->flat_end;
+      });
+      squares_.add({axis,
+                    n,
+                    inside(n),
+                    flat ? of[0]->flat_end : -1,
+                    {corners_[0], corners_[1], corners_[2], corners_[3]}});
+      return;
     }
     if (!inside(n)) std::reverse(corners_.begin(), corners_.end());
     triangulate();
@@ -446,10 +557,11 @@ class Mesher {
 
   const Stock::Impl& stock_;
   const Lattice& lattice_;
+  bool merged_;
   TriangleMesh& out_;
   MeshStatistics& statistics_;
   Index3 brick_{};
-  std::array<std::uint8_t, window * window * window> window_{};
+  std::array<std::uint32_t, window * window> window_{};  ///< rows of nodes along X
   // By place, with the layer of bricks that they belong to; forgotten two layers later.
   std::unordered_map<std::size_t, std::pair<NodeBits, int>> bits_;
   std::unordered_map<std::size_t, std::pair<std::unique_ptr<Brick>, int>> filled_;
@@ -457,14 +569,17 @@ class Mesher {
   std::unordered_map<std::uint64_t, std::pair<std::uint32_t, int>> faces_;
   std::vector<Interval> intervals_;
   std::vector<std::uint32_t> corners_, on_faces_;  ///< of the polygon; those on ambiguous faces
+  BrickFaces squares_;
+  MergedFaces faces_together_;
+  std::vector<std::uint8_t> straight_;  ///< by vertex: bits of the axes that its cell repeats along
 };
 
 }  // namespace
 
-TriangleMesh Stock::mesh(MeshStatistics* statistics) const {
+TriangleMesh Stock::mesh(Facets facets, MeshStatistics* statistics) const {
   TriangleMesh out;
   MeshStatistics ignored;
-  Mesher(*impl_, out, statistics ? *statistics : ignored).run();
+  Mesher(*impl_, facets, out, statistics ? *statistics : ignored).run();
   for (Vec3& v : out.vertices) v += impl_->lattice.origin;
   return out;
 }

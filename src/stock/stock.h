@@ -114,6 +114,12 @@ struct ContactAnswer {
   double most = 0;   ///< with what may hide between the rays
 };
 
+/// Which triangles a mesh has.
+enum class Facets {
+  merged,   ///< flat stretches across an axis in as few as can be; the surface is the same
+  lattice,  ///< a vertex in every cell: for colours by place
+};
+
 struct MeshStatistics {
   std::size_t disagreeing_nodes = 0;  ///< the three families disagree: rounding only when few
   std::size_t missing_ends = 0;       ///< edges that cross the surface without an end nearby
@@ -170,7 +176,7 @@ class Stock {
   /// Volume inside mesh(), mm³: the best figure for the whole stock.
   double volume() const;
   /// The surface as a closed mesh, outward oriented.
-  TriangleMesh mesh(MeshStatistics* statistics = nullptr) const;
+  TriangleMesh mesh(Facets facets = Facets::merged, MeshStatistics* statistics = nullptr) const;
   /// The bytes of a file from which load() makes the same stock, bit for bit.
   std::string save() const;
   /// SHA-256 over the material: equal for equal stock, however it came about.

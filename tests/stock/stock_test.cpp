@@ -308,7 +308,7 @@ TEST(Stock, MeshIsClosedAndItsVolumeIsThatOfTheRays) {
   const std::int64_t before = stock.z_quanta();
   ASSERT_TRUE(stock.cut(job.pieces));
   MeshStatistics statistics;
-  const TriangleMesh mesh = stock.mesh(&statistics);
+  const TriangleMesh mesh = stock.mesh(Facets::merged, &statistics);
   EXPECT_EQ(test::open_edges(mesh), 0u);
   EXPECT_EQ(test::flat_triangles(mesh), 0u);
   EXPECT_EQ(statistics.missing_ends, 0u);
@@ -321,6 +321,49 @@ TEST(Stock, MeshIsClosedAndItsVolumeIsThatOfTheRays) {
             2;
   const double removed = stock.volume_of(before - stock.z_quanta());
   EXPECT_NEAR(aircut::volume(mesh), box - removed, 0.1 * 0.4 * area);
+}
+
+// Distance from a point to a mesh, by all its triangles.
+double distance_to(const TriangleMesh& mesh, const Vec3& p) {
+  double best = 1e9;
+  for (const auto& t : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[t[0]], &b = mesh.vertices[t[1]], &c = mesh.vertices[t[2]];
+    const Vec3 normal = (b - a).cross(c - a).normalized();
+    bool above = true;
+    for (const auto& [u, v] : {std::pair{a, b}, {b, c}, {c, a}}) {
+      above = above && (v - u).cross(p - u).dot(normal) >= 0;
+      const double along = std::clamp((p - u).dot(v - u) / (v - u).squaredNorm(), 0.0, 1.0);
+      best = std::min(best, (u + along * (v - u) - p).norm());
+    }
+    if (above) best = std::min(best, std::abs(normal.dot(p - a)));
+  }
+  return best;
+}
+
+TEST(Stock, MergedMeshIsTheSameSurfaceInFewerTriangles) {
+  // A pocket with round corners, straight walls along X and Y and a step, and random cuts.
+  const auto tool = CutterProfile::flat(6, 20).value();
+  std::vector<Piece> pocket;
+  const std::array<Vec3, 5> corners = {Vec3{6, 6, 5}, Vec3{22, 6, 5}, Vec3{22, 14, 5},
+                                       Vec3{6, 14, 5}, Vec3{6, 6, 5}};
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i)
+    pocket.push_back({&tool, corners[i], corners[i + 1], Vec3::UnitZ(), 0});
+  pocket.push_back({&tool, {14, 10, 3}, {18, 10, 3}, Vec3::UnitZ(), 0});
+  const Job random = random_job(tools(), 25, 21);
+  for (const bool simple : {true, false}) {
+    Stock stock = block(0.4);
+    ASSERT_TRUE(stock.cut(simple ? pocket : random.pieces));
+    const TriangleMesh merged = stock.mesh(), lattice = stock.mesh(Facets::lattice);
+    EXPECT_EQ(test::open_edges(merged), 0u);
+    EXPECT_EQ(test::open_edges(lattice), 0u);
+    EXPECT_EQ(test::flat_triangles(merged), 0u);
+    EXPECT_NEAR(aircut::volume(merged), aircut::volume(lattice), 1e-3);
+    if (simple) {
+      EXPECT_LT(merged.triangles.size(), lattice.triangles.size() / 6);
+    }
+    for (std::size_t i = 0; i < lattice.vertices.size(); i += 97)
+      EXPECT_LT(distance_to(merged, lattice.vertices[i]), 1e-3 * 0.4);
+  }
 }
 
 void expect_mesh_near_surface(const Job& job) {
