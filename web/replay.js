@@ -1,12 +1,11 @@
 // The replay: machine, tool, stock and path in 3D, moved along the run's keys. Between two keys
 // everything is linear in time (src/page/replay.h).
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, Color, DirectionalLight, DoubleSide, Float32BufferAttribute,
-  Group, HemisphereLight, LineBasicMaterial, LineSegments, Mesh, MeshStandardMaterial,
-  PerspectiveCamera, Plane, Quaternion, Scene, Box3, Sphere, SphereGeometry, MeshBasicMaterial, Vector3,
-  WebGLRenderer,
+  BufferAttribute, BufferGeometry, Color, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Mesh,
+  PerspectiveCamera, Plane, Quaternion, Scene, Box3, Sphere, SphereGeometry, MeshBasicMaterial, Vector3, WebGLRenderer,
 } from 'three';
 import {OrbitControls} from 'three/addons/controls/OrbitControls.js';
+import {surfaces} from './surface.js';
 
 const kinds = ['waiting', 'rapid', 'feed', 'arc', 'tool change', 'probe', 'dwell', 'thread', 'blend'];
 const views = {
@@ -37,8 +36,7 @@ function geometry(packed, integers) {
 export function replay(host, {run, integers, numbers, text, make, fixed}) {
   const view = make('div', {class: 'view'});
   const status = make('div', {class: 'status', 'aria-live': 'off'});
-  const renderer = new WebGLRenderer({antialias: true, preserveDrawingBuffer: true});
-  renderer.localClippingEnabled = true;
+  const renderer = new WebGLRenderer({antialias: false, preserveDrawingBuffer: true});
   renderer.domElement.tabIndex = 0;
   renderer.domElement.setAttribute('aria-label', 'the machine in 3D; drag to turn, wheel to zoom');
   view.append(renderer.domElement, status);
@@ -61,12 +59,9 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
   camera.up.set(0, 0, 1);
   const controls = new OrbitControls(camera, renderer.domElement);
   controls.enableDamping = false;
-  scene.add(new HemisphereLight(0xffffff, 0x8a8378, 1.5), new AmbientLight(0xffffff, 0.35));
-  const sun = new DirectionalLight(0xffffff, 2.0);
-  sun.position.set(0.6, -1, 1.6);
-  camera.add(sun);
   scene.add(camera);
   const section = new Plane(new Vector3(0, 1, 0), 1e9);
+  const look_of = surfaces(section);
 
   const links = run.links.map(link => {
     const group = new Group();
@@ -76,7 +71,12 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
     const still = link.rows.every(row => 'all' in row);
     return {group, rows, still, placed: false};
   });
-  const red = new Color('#ff3b30');
+  // Both shapes of a body, made when they are first needed.
+  function shapes(packed) {
+    const made = {};
+    return fine => made[fine] ??= fine || !packed.coarse ? geometry(packed.mesh, integers) : geometry(packed.coarse, integers);
+  }
+  const red = new Color('#ff3b30'), none = new Color(0, 0, 0);
   const parts = [];
   function place(item, mesh) {
     const pose = new Group();
@@ -86,15 +86,13 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
     links[item.link].group.add(pose);
     return pose;
   }
-  const material = color => new MeshStandardMaterial({color, metalness: 0.35, roughness: 0.55, flatShading: true,
-    side: DoubleSide, clippingPlanes: [section]});
   for (const body of run.bodies) {
-    const mesh = new Mesh(geometry(body.mesh, integers), material(body.color));
-    parts.push({...body, object: mesh, pose: place(body, mesh), hidden: false});
+    const shape = shapes(body), mesh = new Mesh(shape(true), look_of.material(body.color));
+    parts.push({...body, shape, object: mesh, pose: place(body, mesh), hidden: false});
   }
   // Stock as it was from each stage on takes the place of its raw body.
   const raw = parts.find(part => part.role === 'stock');
-  const stages = run.stock.map(stage => ({t: stage.t, packed: stage.mesh, geometry: null}));
+  const stages = run.stock.map(stage => ({t: stage.t, shape: shapes(stage)}));
 
   // ---- path, in the frame of the work --------------------------------------------------------
   const workGroup = new Group();
@@ -120,6 +118,7 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
   world.add(marker);
 
   // ---- controls ------------------------------------------------------------------------------
+  let fine = true, slow = false, ratio = 1, drawnAt = 0, late = 0;  // the picture
   let now = 0, playing = false, speed = 1, drawn = -1, wanted = true, finding = null;
   const slider = make('input', {type: 'range', min: 0, max: 1000000, value: 0, class: 'timeline', 'aria-label': 'time'});
   const play = make('button', {'aria-pressed': 'false', title: 'space'}, 'play');
@@ -217,9 +216,9 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
     if (raw && stages.length > 0) {
       let stage = stages[0];
       for (const s of stages) if (s.t <= t + 1e-9) stage = s;
-      stage.geometry ??= geometry(stage.packed, integers);
-      raw.object.geometry = stage.geometry;
+      raw.shape = stage.shape;
     }
+    for (const part of parts) if (part.object.visible) part.object.geometry = part.shape(fine);
     const block = before(blocks.t, t + 1e-9);
     const lineNow = blocks.t.length > 0 ? blocks.line[block] : 0;
     follow(lineNow);
@@ -241,8 +240,7 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
     finding = f;
     for (const part of parts) {
       const hit = f && (part.name === f.body_a || part.name === f.body_b);
-      part.object.material.emissive.set(hit ? red : '#000000');
-      part.object.material.emissiveIntensity = hit ? 0.55 : 0;
+      part.object.material.uniforms.glow.value.copy(hit ? red : none).multiplyScalar(0.55);
     }
     marker.visible = Boolean(f && f.points_mm && f.points_mm.length > 0);
     if (marker.visible) marker.position.fromArray(f.points_mm[0]);
@@ -252,14 +250,38 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
   function redraw() {
     wanted = true;
   }
+  // Edges are smooth by drawing twice as fine as the screen is. Where that takes too long, it waits
+  // until the picture stands still, and the bodies that move are coarse.
+  function sharpen(on) {
+    fine = on;
+    renderer.setPixelRatio(on ? Math.min(3, Math.max(devicePixelRatio, 2)) : Math.min(devicePixelRatio, ratio));
+  }
   function size() {
     const {clientWidth: w, clientHeight: h} = view;
     if (w === 0 || h === 0) return;
-    renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     renderer.setSize(w, h, false);
     camera.aspect = w / h;
     camera.updateProjectionMatrix();
     redraw();
+  }
+  function hurry(stamp) {
+    if (stamp - drawnAt < 300) {  // one of several in a row
+      late = stamp - drawnAt > 40 ? late + 1 : Math.max(0, late - 1);
+    }
+    if (late > 3) {  // coarse bodies first, then fewer pixels
+      if (slow) ratio = Math.max(0.5, 0.7 * ratio);
+      slow = true;
+      late = 0;
+      sharpen(false);
+    }
+    if (slow && fine) sharpen(false);
+    drawnAt = stamp;
+  }
+  function paint() {
+    if (marker.visible) marker.scale.setScalar(camera.position.distanceTo(marker.position) / 90);
+    camera.updateMatrixWorld();
+    look_of.update(camera);
+    renderer.render(scene, camera);
   }
   function box(only) {
     world.updateMatrixWorld(true);
@@ -297,9 +319,13 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
     if (wanted || now !== drawn) {
       wanted = false;
       drawn = now;
+      hurry(stamp);
       move(now);
-      if (marker.visible) marker.scale.setScalar(camera.position.distanceTo(marker.position) / 90);
-      renderer.render(scene, camera);
+      paint();
+    } else if (!fine && stamp - drawnAt > 200) {
+      sharpen(true);
+      move(now);
+      paint();
     }
     requestAnimationFrame(tick);
   }
@@ -341,7 +367,7 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
   function cut() {
     const i = Number(axis.value);
     depth.hidden = i < 0;
-    section.constant = 1e9;
+    look_of.cut(i >= 0);
     if (i >= 0) {
       const bounds = box();
       const low = bounds.min.getComponent(i), high = bounds.max.getComponent(i);
@@ -387,6 +413,7 @@ export function replay(host, {run, integers, numbers, text, make, fixed}) {
   });
 
   scene.background = background();
+  sharpen(true);
   size();
   move(0);
   const work = workBox();

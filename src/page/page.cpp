@@ -22,6 +22,9 @@ constexpr std::size_t most_program_bytes = 8'000'000;
 constexpr std::size_t most_picture_bytes = 3'500'000;  // of all pictures together
 constexpr std::size_t most_stock_triangles = 30'000;
 constexpr std::size_t most_body_triangles = 60'000;
+// What a slow browser draws while the picture moves.
+constexpr std::size_t coarse_stock_triangles = 4'000;
+constexpr std::size_t coarse_body_triangles = 400;
 constexpr int stock_stages = 12;
 constexpr std::size_t most_findings = 1000;
 
@@ -58,6 +61,10 @@ class Packer {
             {"corners", json(blob_.add(corners))},
             {"indices", json(blob_.add(indices))}};
   }
+  // The mesh in no more than some triangles; null when it has no more as it is.
+  Json coarse(const TriangleMesh& full, std::size_t most) {
+    return full.triangles.size() <= most ? Json() : mesh(at_most(full, most));
+  }
   std::string bytes() const { return base64(deflated(blob_.bytes())); }
 
  private:
@@ -81,7 +88,8 @@ std::string hex(const machine::Color& c) {
 Json body(Packer& packer, const machine::Body& b) {
   return {{"name", utf8(b.name)},   {"role", machine::to_string(b.role)},
           {"link", index(b.link)},  {"color", hex(b.color)},
-          {"pose", matrix(b.X_LB)}, {"mesh", packer.mesh(at_most(*b.mesh, most_body_triangles))}};
+          {"pose", matrix(b.X_LB)}, {"mesh", packer.mesh(at_most(*b.mesh, most_body_triangles))},
+          {"coarse", packer.coarse(*b.mesh, coarse_body_triangles)}};
 }
 
 Json bodies(Packer& packer, const Replay& replay) {
@@ -286,7 +294,9 @@ Expected<std::string> page_html(const PageInput& input) {
     const double t = replay.keys().back().t * i / stock_stages;
     const auto mesh = input.history->at(t);
     if (!mesh) return unexpected(mesh.error());
-    stages.push_back({{"t", t}, {"mesh", packer.mesh(at_most(**mesh, most_stock_triangles))}});
+    stages.push_back({{"t", t},
+                      {"mesh", packer.mesh(at_most(**mesh, most_stock_triangles))},
+                      {"coarse", packer.coarse(**mesh, coarse_stock_triangles)}});
   }
   run["stock"] = std::move(stages);
 
