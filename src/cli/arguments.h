@@ -20,6 +20,7 @@ struct ProgramArguments {
   std::string machine;  ///< folder, machine.toml or name
   std::string tools, setup, parameters;
   std::string ini;  ///< set-up of a LinuxCNC machine
+  enum class IniUse { both, machine, control } ini_use = IniUse::both;  ///< what of `-m FILE.ini`
   std::vector<std::pair<std::string, double>> set;
   std::vector<std::string> sub_path;
   std::string dialect;  ///< linuxcnc, fanuc, haas, auto; empty: the machine's

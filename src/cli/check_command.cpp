@@ -34,8 +34,8 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
   std::optional<semantics::TravelCheck> travel;
   if (job.machine && checks.limits) travel.emplace(*job.machine, job.start, diagnostics);
   std::optional<linuxcnc::TravelCheck> axis_travel;
-  if (job.control && !job.machine && checks.limits)
-    axis_travel.emplace(job.control->travel, AxisValues{});
+  if (has_axis_travel(job) && checks.limits)
+    axis_travel.emplace(job.control->travel, options.start);
   std::vector<std::string> not_run;
   std::size_t own_errors = 0;
   const auto errors_of = [&](const auto& look) {
@@ -99,7 +99,7 @@ int check_command(const CheckArguments& a) {
   report.checks = {"syntax"};
   if (checks.semantics) report.checks.push_back("semantics");
   if (job.machine && checks.limits) report.checks.push_back("limits of the programmed path");
-  if (job.control && !job.machine && !job.control->travel.empty() && checks.limits)
+  if (!job.machine && has_axis_travel(job) && checks.limits)
     report.checks.push_back("limits of the programmed path");
   report.fail_on = a.output.fail_on;
   report.folder = working_folder();
@@ -118,6 +118,9 @@ int check_command(const CheckArguments& a) {
   };
   bool printed = !stream || (print_text(report::jsonl_head(report)) && stream_shared(0));
   if (job.control) report.summary.unchecked = job.control->unchecked;
+  if (job.imported)
+    report.summary.unchecked.insert(report.summary.unchecked.end(), job.imported->unchecked.begin(),
+                                    job.imported->unchecked.end());
   sim::Verdict worst = sim::judge({}, report.summary, job.diagnostics, a.output.fail_on);
   std::vector<std::unique_ptr<SourceMap>> kept;
   std::size_t messages = 0;

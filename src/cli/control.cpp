@@ -1,16 +1,59 @@
 // The set-up file of a LinuxCNC machine as part of a job.
+#include <filesystem>
+
 #include "cli/job.h"
 
 namespace aircut::cli {
 
+namespace {
+
+// The file of `FILE.ini` or `FILE.ini:CHANNEL`.
+std::string ini_machine(const ProgramArguments& arguments) {
+  const std::string file = machine::split_channel(arguments.machine).first;
+  return file.ends_with(".ini") ? file : std::string();
+}
+
+}  // namespace
+
 std::string ini_of(const ProgramArguments& arguments) {
-  return arguments.ini.empty() && arguments.machine.ends_with(".ini") ? arguments.machine
-                                                                      : arguments.ini;
+  return arguments.ini.empty() ? ini_machine(arguments) : arguments.ini;
+}
+
+bool import_ini(Job& job, const ProgramArguments& arguments) {
+  const std::string path = ini_machine(arguments);
+  auto imported = linuxcnc::import_machine(path, job.sources, job.diagnostics);
+  if (!imported) {
+    if (job.diagnostics.errors() == 0) job.diagnostics.add(imported.error());
+    return false;
+  }
+  if (!*imported) {
+    if (arguments.ini_use == ProgramArguments::IniUse::both) return true;
+    job.diagnostics.error(
+        "ini_kinematics", {},
+        "'" + printable(path) + "' has no [KINS]KINEMATICS, so there is no machine to ask");
+    return false;
+  }
+  const SourceText& text = job.sources.add(path + " as machine.toml", (*imported)->toml);
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const auto machine =
+      machine::read_machine(text, folder.empty() ? "." : folder, job.sources, job.diagnostics,
+                            machine::split_channel(arguments.machine).second);
+  if (!machine) return false;
+  job.machine = *machine;
+  job.imported = std::move(*imported);
+  job.start = job.machine->home();
+  job.inputs.push_back({"machine", arguments.machine, sha256(text.content())});
+  return true;
+}
+
+bool has_axis_travel(const Job& job) {
+  if (!job.control || job.control->travel.empty()) return false;
+  return !job.machine || (job.imported && !job.imported->axes_are_joints);
 }
 
 bool open_ini(Job& job, const ProgramArguments& arguments) {
   const std::string path = ini_of(arguments);
-  if (path.empty()) return true;
+  if (path.empty() || arguments.ini_use == ProgramArguments::IniUse::machine) return true;
   auto setup = linuxcnc::read_setup(
       path, {.tools = !arguments.tools.empty(), .parameters = !arguments.parameters.empty()},
       job.sources, job.diagnostics);

@@ -265,7 +265,9 @@ class Printer {
 
 int diff_command(const DiffArguments& a) {
   Job job;
-  const bool open = open_inputs(job, a.program);
+  ProgramArguments inputs = a.program;
+  inputs.ini_use = ProgramArguments::IniUse::control;
+  const bool open = open_inputs(job, inputs);
   print_errors(job.diagnostics, When::automatic);
   if (!open) return code(ExitCode::unknown);
   std::vector<std::unique_ptr<Moves>> sides;

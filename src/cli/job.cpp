@@ -99,7 +99,10 @@ bool open_inputs(Job& job, const ProgramArguments& arguments, std::optional<doub
   };
   if (!open_ini(job, arguments)) return false;
   const double unit_mm = job.control ? job.control->unit_mm : 1.0;
-  if (!arguments.machine.empty() && arguments.machine != ini_of(arguments)) {
+  if (machine::split_channel(arguments.machine).first.ends_with(".ini")) {
+    if (arguments.ini_use != ProgramArguments::IniUse::control && !import_ini(job, arguments))
+      return false;
+  } else if (!arguments.machine.empty()) {
     const auto [package, channel] = machine::split_channel(arguments.machine);
     const auto path = machine::find_package(package, package_folders());
     if (!path) return fail(path.error());
@@ -153,7 +156,11 @@ interp::Options interpreter_options(const Job& job, const ProgramArguments& argu
   else
     for (const Axis axis : all_axes) options.axes.add(axis);
   if (job.machine) {
-    options.axes = job.machine->kinematics().axes();
+    const AxisSet axes = job.machine->kinematics().axes();
+    const AxisSet named = options.axes;
+    options.axes = {};
+    for (const Axis axis : all_axes)
+      if (axes.has(axis) && (named.has(axis) || !job.imported)) options.axes.add(axis);
     if (const auto tip = job.machine->kinematics().forward(job.start, {})) options.start = *tip;
   }
   const bool automatic = arguments.dialect == "auto";

@@ -21,6 +21,7 @@ struct Job {
   Diagnostics diagnostics;                          ///< of inputs other than the program
   std::shared_ptr<const machine::Machine> machine;  ///< null when none was named
   std::optional<linuxcnc::Setup> control;           ///< --ini
+  std::optional<linuxcnc::MachineImport> imported;  ///< `machine` is that of a set-up
   machine::JointVector start;
   tool::ToolTable tools;
   interp::ParameterFile parameters;
@@ -36,6 +37,11 @@ bool open_inputs(Job& job, const ProgramArguments& arguments,
 std::string ini_of(const ProgramArguments& arguments);
 /// Reads it into job.control; false with errors in job.diagnostics.
 bool open_ini(Job& job, const ProgramArguments& arguments);
+/// The machine of a set-up (`FILE.ini`, `FILE.ini:CHANNEL`) into job.machine, which stays empty
+/// when the set-up names no kinematics; false with errors in job.diagnostics.
+bool import_ini(Job& job, const ProgramArguments& arguments);
+/// Has the set-up travel of axes that the machine's joints do not have?
+bool has_axis_travel(const Job& job);
 /// Tells a code whose program of the control was not run, once per place.
 void note_user_code(const Job& job, const canon::Command& command, Diagnostics& out,
                     std::vector<std::string>& unchecked);

@@ -156,6 +156,7 @@ bool open_kinematics(Job& job, const KinArguments& a) {
   if (a.type.empty()) {
     ProgramArguments inputs;
     inputs.machine = a.machine;
+    inputs.ini_use = ProgramArguments::IniUse::machine;
     if (a.kinstype) inputs.machine += ":" + std::to_string(*a.kinstype);
     return open_inputs(job, inputs);
   }

@@ -116,6 +116,7 @@ int machine_command(const MachineArguments& a) {
   Job job;
   ProgramArguments inputs;
   inputs.machine = a.machine;
+  inputs.ini_use = ProgramArguments::IniUse::machine;
   inputs.setup = a.setup;
   inputs.tools = a.tools;
   const bool opened = open_inputs(job, inputs);

@@ -184,6 +184,22 @@ Expected<void> write_part(const RunArguments& a, const sim::Simulator& simulator
   return listed("deviation.png", render::png_bytes(*picture));
 }
 
+// What the inputs leave open.
+std::vector<std::string> unchecked_of(const Job& job, const Checks& checks) {
+  std::vector<std::string> all;
+  const auto add = [&](const std::vector<std::string>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
+  if (job.control) add(job.control->unchecked);
+  if (!job.imported) return all;
+  add(job.imported->unchecked);
+  if (!checks.collision && !checks.cut) return all;
+  add(job.imported->undrawn);
+  if (checks.collision && job.machine->bodies().empty())
+    all.push_back("collisions with the machine: a set-up has no bodies");
+  return all;
+}
+
 Expected<report::FrameOptions> frame_options(const RunArguments& a) {
   report::FrameOptions options;
   options.camera = a.camera;
@@ -227,8 +243,8 @@ int run_command(const RunArguments& a) {
   if (!job.machine)
     return fail(
         make_error("usage",
-                   "a set-up file has no bodies and no kinematics that could be moved: name "
-                   "a package too, -m PACKAGE --ini " +
+                   "the set-up has no [KINS]KINEMATICS, so there is no machine to move: name a "
+                   "package too, -m PACKAGE --ini " +
                        printable(ini_of(a.program))));
   if (!job.machine->stock() && (!a.save_stock.empty() || (!a.part.empty() && a.part != "null")))
     return fail(
@@ -299,8 +315,13 @@ int run_command(const RunArguments& a) {
   semantics::ProgramCheck meaning({job.tools, job.machine.get(), true, offset_rows}, diagnostics,
                                   doubts);
   const auto parameters = interpreter.parameters();
-  if (checks.semantics)
-    options.listen = [&](const canon::Command& command) { meaning.see(command); };
+  std::optional<linuxcnc::TravelCheck> axis_travel;
+  if (has_axis_travel(job) && checks.limits)
+    axis_travel.emplace(job.control->travel, control.start);
+  options.listen = [&](const canon::Command& command) {
+    if (checks.semantics) meaning.see(command);
+    if (axis_travel) axis_travel->see(command, diagnostics);
+  };
   sim::Simulator::Result result = sim::run(interpreter, diagnostics, planner, simulator, options);
   progress.clear();
   if (checks.semantics)
@@ -325,8 +346,8 @@ int run_command(const RunArguments& a) {
                      {"resolution_mm", machine.collision_tolerance()}};
   report.summary = result.summary;
   report.diagnostics = job.diagnostics.list();
-  if (job.control)
-    for (const std::string& what : job.control->unchecked) report.summary.unchecked.push_back(what);
+  for (const std::string& what : unchecked_of(job, checks))
+    report.summary.unchecked.push_back(what);
   if (checks.collision) {
     // An open mesh is checked by its surface only; what enters through a hole is not seen.
     Diagnostics model;

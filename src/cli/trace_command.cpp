@@ -19,7 +19,9 @@ int trace_command(const TraceArguments& a) {
   const bool reference_units =
       reference && (a.program.machine.empty() || a.program.machine == ini_of(a.program));
   // The reference program takes the inch as machine unit, so its tool table is read in inches.
-  open_inputs(job, a.program, reference_units ? std::optional(25.4) : std::nullopt);
+  ProgramArguments inputs = a.program;
+  inputs.ini_use = ProgramArguments::IniUse::control;
+  open_inputs(job, inputs, reference_units ? std::optional(25.4) : std::nullopt);
   print_errors(job.diagnostics, a.color);
   if (job.diagnostics.errors() > 0) return code(ExitCode::unknown);
 

@@ -98,6 +98,7 @@ int workspace_command(const WorkspaceArguments& a) {
   Job job;
   ProgramArguments inputs;
   inputs.machine = a.machine;
+  inputs.ini_use = ProgramArguments::IniUse::machine;
   const bool opened = open_inputs(job, inputs);
   print_errors(job.diagnostics, a.color);
   if (!opened) return code(ExitCode::unknown);

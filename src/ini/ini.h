@@ -11,6 +11,7 @@
 // Names keep their case. A key may stand several times; a reader asks for the n-th.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,6 +53,9 @@ class IniFile {
 /// `ini_line`, `ini_section` (warnings: lines that the control does not read as they look) and
 /// `ini_include`, `encoding` (errors).
 IniFile read_ini(const SourceText& text, const SourceReader& include, Diagnostics& out);
+
+/// A number as the control takes it: an exponent is allowed, nothing behind it is.
+std::optional<double> number_of(const std::string& text);
 
 /// Kinds of messages of this library, for `explain` and the docs.
 const std::vector<KindText>& kinds();

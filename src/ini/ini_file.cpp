@@ -4,6 +4,7 @@
 // gives the same when both views are kept: starts of sections from raw lines, entries from joined
 // ones.
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "ini/ini.h"
@@ -251,6 +252,15 @@ std::vector<const Entry*> IniFile::all(std::string_view section, std::string_vie
 
 IniFile read_ini(const SourceText& text, const SourceReader& include, Diagnostics& out) {
   return Reader(include, out).read(text);
+}
+
+std::optional<double> number_of(const std::string& text) {
+  const std::size_t e = text.find_first_of("eE");
+  const auto mantissa = parse_number(text.substr(0, e));
+  if (!mantissa || e == std::string::npos) return mantissa;
+  const auto power = parse_number(text.substr(e + 1));
+  if (!power || *power != std::round(*power) || std::fabs(*power) > 300) return std::nullopt;
+  return *mantissa * std::pow(10, *power);
 }
 
 const std::vector<KindText>& kinds() {

@@ -40,6 +40,20 @@ struct Given {
 Expected<Setup> read_setup(const std::string& path, Given given, SourceMap& sources,
                            Diagnostics& out);
 
+/// The machine of a set-up: what `[KINS]`, its joints and axes and the HAL files say, as a
+/// machine.toml without bodies.
+struct MachineImport {
+  std::string toml;
+  std::vector<std::string> unchecked;  ///< what was not understood, a sentence each
+  std::vector<std::string> undrawn;    ///< likewise; counts only where bodies are looked at
+  bool axes_are_joints = false;        ///< so the joints' limits hold those of the axes
+  /// The analog output (M67, M68) that switches the kinematics.
+  std::optional<int> switch_output;
+};
+/// Nothing when the set-up names no kinematics; errors are in `out`.
+Expected<std::optional<MachineImport>> import_machine(const std::string& path, SourceMap& sources,
+                                                      Diagnostics& out);
+
 /// Tells moves beyond the travel, once per block, axis and end (kind `overtravel`).
 class TravelCheck {
  public:

@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 
+#include "linuxcnc/folder.h"
 #include "linuxcnc/linuxcnc.h"
 
 namespace aircut::linuxcnc {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr double radian_per_degree = std::numbers::pi / 180;
 constexpr double mm_per_inch = 25.4;
@@ -22,51 +20,6 @@ std::string lower(std::string text) {
 bool has_small_letter(const std::string& text) {
   return std::any_of(text.begin(), text.end(), [](char c) { return c >= 'a' && c <= 'z'; });
 }
-
-/// A number as the control takes it: an exponent is allowed, nothing behind it is.
-std::optional<double> number_of(const std::string& text) {
-  const std::size_t e = text.find_first_of("eE");
-  const auto mantissa = parse_number(text.substr(0, e));
-  if (!mantissa || e == std::string::npos) return mantissa;
-  const auto power = parse_number(text.substr(e + 1));
-  if (!power || *power != std::round(*power) || std::fabs(*power) > 300) return std::nullopt;
-  return *mantissa * std::pow(10, *power);
-}
-
-/// Files and folders that a set-up names: below its own folder, links resolved.
-class Folder {
- public:
-  explicit Folder(const std::string& file) : shown_(fs::path(file).parent_path()) {
-    std::error_code error;
-    root_ = fs::canonical(shown_.empty() ? fs::path(".") : shown_, error);
-  }
-
-  /// The path as messages show it, or why it can't be used (`path_refused`, `input`).
-  Expected<std::string> resolve(const std::string& name, bool folder) const {
-    const auto refuse = [&](const std::string& why) {
-      return unexpected(make_error("path_refused", "can't use '" + printable(name) + "': " + why));
-    };
-    if (name.find_first_of("$`\"'*?\\|;&<>()~") != std::string::npos)
-      return refuse("paths are taken as they are written; nothing is expanded here");
-    if (name.front() == '/') return refuse("it is absolute; paths start at the set-up's folder");
-    for (const fs::path& part : fs::path(name))
-      if (part == "..") return refuse("'..' leads out of the set-up's folder");
-    std::error_code error;
-    const fs::path full = fs::canonical(root_ / name, error);
-    if (error)
-      return unexpected(
-          make_error("input", "there is no '" + printable(name) + "' in the set-up's folder"));
-    const auto ends = std::mismatch(root_.begin(), root_.end(), full.begin(), full.end());
-    if (ends.first != root_.end()) return refuse("a link leads out of the set-up's folder");
-    if (folder ? !fs::is_directory(full, error) : !fs::is_regular_file(full, error))
-      return unexpected(make_error(
-          "input", "'" + printable(name) + "' is not a " + (folder ? "folder" : "regular file")));
-    return (shown_ / name).lexically_normal().string();
-  }
-
- private:
-  fs::path shown_, root_;
-};
 
 class Reader {
  public:
@@ -101,7 +54,7 @@ class Reader {
   std::optional<double> number(std::string_view section, std::string_view key) {
     const ini::Entry* entry = find(section, key);
     if (!entry) return std::nullopt;
-    const auto value = number_of(entry->value);
+    const auto value = ini::number_of(entry->value);
     if (!value)
       error(*entry, "'" + printable(entry->value) +
                         "' is not a plain number, so the control takes its default; write the "
@@ -121,7 +74,7 @@ class Reader {
   bool flag(std::string_view section, std::string_view key, bool otherwise) {
     const ini::Entry* entry = find(section, key);
     if (!entry) return otherwise;
-    const auto value = number_of(entry->value);
+    const auto value = ini::number_of(entry->value);
     if (value && *value == std::round(*value)) return *value != 0;
     error(*entry, "'" + printable(entry->value) +
                       "' is read differently by versions of the control; write 0 or 1 alone");
@@ -136,7 +89,7 @@ class Reader {
   void units() {
     if (const ini::Entry* entry = find("TRAJ", "LINEAR_UNITS")) {
       const std::string word = lower(entry->value);
-      const auto scale = number_of(word);  // units per mm
+      const auto scale = ini::number_of(word);  // units per mm
       if (word == "inch" || word == "in" || word == "imperial" ||
           (scale && std::fabs(*scale * mm_per_inch - 1) < 1e-4))
         setup_.unit_mm = mm_per_inch;
@@ -149,7 +102,7 @@ class Reader {
     }
     if (const ini::Entry* entry = find("TRAJ", "ANGULAR_UNITS")) {
       const std::string word = lower(entry->value);
-      const auto scale = number_of(word);
+      const auto scale = ini::number_of(word);
       if (word != "deg" && word != "degree" && !(scale && *scale == 1))
         error(*entry, "only degree is modelled, this is '" + printable(entry->value) + "'");
     }
@@ -188,10 +141,9 @@ class Reader {
     }
     if (!given_.parameters)
       if (const ini::Entry* entry = find("RS274NGC", "PARAMETER_FILE"))
-        setup_.parameter_file = file_of(*entry, "--var FILE");
+        setup_.parameter_file = parameters_of(*entry);
     if (given_.tools) return;
-    if (const ini::Entry* entry = find("EMCIO", "TOOL_TABLE"))
-      setup_.tool_table = file_of(*entry, "-t FILE");
+    if (const ini::Entry* entry = find("EMCIO", "TOOL_TABLE")) setup_.tool_table = tools_of(*entry);
     if (const ini::Entry* entry = find("EMCIO", "DB_PROGRAM")) {
       out_.warning("not_executed", entry->span,
                    "the tool table comes from a program, which is never run here; give a table "
@@ -211,13 +163,34 @@ class Reader {
     d.span = entry.span;
     out_.add(std::move(d));
   }
-  std::string file_of(const ini::Entry& entry, const std::string& option) {
-    auto path = folder_.resolve(entry.value, false);
-    if (path) return *path;
-    Diagnostic d = path.error();
-    d.message = entry.key + ": " + d.message + "; " + option + " names another";
+  // A parameter file that is not there is one that the control has not written yet: it begins with
+  // zeros. A folder in its place is a mistake.
+  std::string parameters_of(const ini::Entry& entry) {
+    if (const auto path = folder_.resolve(entry.value, false)) return *path;
+    if (!folder_.lacks(entry.value)) return file_refused(entry, "--var", "the parameters");
+    out_.add({Severity::info,
+              "ini_ignored",
+              entry.key + ": there is no '" + printable(entry.value) +
+                  "', so parameters start at 0; --var FILE names a file",
+              entry.span,
+              {},
+              {}});
+    return {};
+  }
+  std::string tools_of(const ini::Entry& entry) {
+    const auto path = folder_.resolve(entry.value, false);
+    return path ? *path : file_refused(entry, "-t", "the tool table");
+  }
+  // The job goes on without the file, as the control does, and can't be verified.
+  std::string file_refused(const ini::Entry& entry, const std::string& option,
+                           const std::string& what) {
+    Diagnostic d = folder_.resolve(entry.value, false).error();
+    d.severity = Severity::warning;
+    d.message = entry.key + ": " + d.message + "; " + option + " FILE names another";
     d.span = entry.span;
     out_.add(std::move(d));
+    setup_.unchecked.push_back(what + " of the set-up could not be read (" +
+                               printable(entry.value) + "); " + option + " FILE names another");
     return {};
   }
 
@@ -281,7 +254,7 @@ class Reader {
       const std::size_t from = entry->value.find_first_not_of(" \t", at);
       if (from == std::string::npos) break;
       at = std::min(entry->value.find_first_of(" \t", from), entry->value.size());
-      const auto value = number_of(entry->value.substr(from, at - from));
+      const auto value = ini::number_of(entry->value.substr(from, at - from));
       if (!value || values.size() == 9) {
         values.clear();
         break;
@@ -370,7 +343,7 @@ class Reader {
       if (has_small_letter(section.name)) continue;
       for (const ini::Entry& entry : section.entries) {
         if (has_small_letter(entry.key) || file_.find(section.name, entry.key) != &entry) continue;
-        if (const auto value = number_of(entry.value))
+        if (const auto value = ini::number_of(entry.value))
           setup_.options.ini[section.name + "/" + entry.key] = *value;
       }
     }
@@ -402,7 +375,7 @@ class Reader {
     for (const ini::Section& section : file_.sections())
       for (const ini::Entry& entry : section.entries)
         if (section.name.starts_with("AXIS_") && entry.key == "OFFSET_AV_RATIO" &&
-            number_of(entry.value).value_or(1) != 0)
+            ini::number_of(entry.value).value_or(1) != 0)
           unchecked(entry, "offsets that come from pins while a program runs");
   }
 
@@ -433,11 +406,24 @@ Expected<Setup> read_setup(const std::string& path, Given given, SourceMap& sour
 
 const std::vector<KindText>& kinds() {
   static const std::vector<KindText> all = {
+      {"hal_line", "a line of a HAL file that is not understood",
+       "Warning: HAL files are read for what they say to the kinematics; nothing of them is run. "
+       "Example: `source other.hal`."},
+      {"hal_value", "a value of a HAL file that is no number",
+       "A pin that sets a length or an angle of the kinematics needs a plain number. Example: "
+       "`setp "
+       "pumakins.A2 4OO`."},
       {"ini_ignored", "something in a set-up file that the control passes over",
        "Warning. The control would go on with its default. Example: "
        "CENTER_ARC_RADIUS_TOLERANCE_MM = 1."},
       {"ini_key", "a key or section of a set-up file that looks misspelt",
        "Warning. The control looks at names it knows, in capitals. Example: `WRAPED_ROTARY = 1`."},
+      {"ini_kinematics", "a set-up whose machine can't be made",
+       "KINEMATICS names a module that is not known here, or the set-up or its HAL files do not "
+       "say "
+       "what the module needs. A machine package of your own does without "
+       "(docs/machine-package.md). "
+       "Example: `KINEMATICS = mykins`."},
       {"ini_not_modelled", "something in a set-up file that is not simulated",
        "Warning when it can change what the machine does: the verdict is then unknown. Example: "
        "`OFFSET_AV_RATIO = 0.5`."},

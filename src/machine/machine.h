@@ -411,6 +411,11 @@ struct Setup {
 Expected<std::shared_ptr<const Machine>> read_machine(const std::string& path, SourceMap& sources,
                                                       Diagnostics& out,
                                                       const std::string& channel = {});
+/// Likewise a machine.toml that is a text already; its files are looked for in `folder`.
+Expected<std::shared_ptr<const Machine>> read_machine(const SourceText& text,
+                                                      const std::string& folder, SourceMap& sources,
+                                                      Diagnostics& out,
+                                                      const std::string& channel = {});
 /// Reads setup.toml and returns the machine with its fixtures placed as the setup says.
 Expected<Setup> read_setup(const std::string& path, const Machine& machine, SourceMap& sources,
                            Diagnostics& out);

@@ -224,8 +224,15 @@ Expected<std::shared_ptr<const Machine>> read_machine(const std::string& path, S
     out.add(text.error());
     return unexpected(text.error());
   }
-  const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
-  return read_machine_text(**text, folder, disk_files(folder, sources), out, channel);
+  return read_machine(**text, file.has_parent_path() ? file.parent_path().string() : ".", sources,
+                      out, channel);
+}
+
+Expected<std::shared_ptr<const Machine>> read_machine(const SourceText& text,
+                                                      const std::string& folder,
+                                                      SourceMap& sources, Diagnostics& out,
+                                                      const std::string& channel) {
+  return read_machine_text(text, folder, disk_files(folder, sources), out, channel);
 }
 
 }  // namespace aircut::machine

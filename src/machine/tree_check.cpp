@@ -40,14 +40,17 @@ bool follows_rotary(const Machine& machine) {
   return true;
 }
 
-JointVector random_joints(const Machine& machine, Random& random, bool turn) {
+JointVector random_joints(const Machine& machine, Random& random, bool turn, double share) {
   JointVector joints(machine.joint_count());
+  const JointVector home = machine.home();
   for (int i = 0; i < machine.joint_count(); ++i) {
     const Joint& joint = machine.joint(JointId{i});
     constexpr double pi = std::numbers::pi;
     const double low = std::isfinite(joint.min) ? joint.min : -pi;
     const double high = std::isfinite(joint.max) ? joint.max : pi;
-    joints[i] = joint.kind == JointKind::rotary && !turn ? 0 : random.between(low, high);
+    joints[i] = joint.kind == JointKind::rotary && !turn
+                    ? 0
+                    : home[i] + share * (random.between(low, high) - home[i]);
   }
   return joints;
 }
@@ -91,8 +94,12 @@ std::optional<std::string> tree_disagrees(const Machine& machine) {
   const bool turn = follows_rotary(machine);
   constexpr int wanted = 1000;
   int compared = 0;
-  for (int tries = 0; compared < wanted && tries < 50 * wanted; ++tries) {
-    JointVector joints = random_joints(machine, random, turn);
+  double share = 1;
+  for (int tries = 1; compared < wanted && tries < 50 * wanted; ++tries) {
+    // Limits that are far wider than what can be assembled: nearer to home.
+    constexpr int batch = 200;
+    if (tries % batch == 0 && compared < tries / 10) share /= 2;
+    JointVector joints = random_joints(machine, random, turn, share);
     kinematics.couple(joints);
     const auto tip = kinematics.forward(joints, {});
     if (!tip) continue;

@@ -147,8 +147,15 @@ TEST_F(SetupFile, DoesNotLookAtFilesThatTheUserReplaces) {
   const std::string text = "[RS274NGC]\nPARAMETER_FILE=/a\n[EMCIO]\nTOOL_TABLE=/b\n";
   read(text, {.tools = true, .parameters = true});
   EXPECT_EQ(messages(), "");
-  read(text);
-  EXPECT_EQ(out_.errors(), 2u);
+  EXPECT_EQ(read(text).unchecked.size(), 2u);
+  EXPECT_EQ(messages(), "path_refused:4 path_refused:6");
+}
+
+TEST_F(SetupFile, StartsWithoutTheParametersThatTheControlHasNotWrittenYet) {
+  const auto setup = read("[RS274NGC]\nPARAMETER_FILE=new.var\n");
+  EXPECT_EQ(messages(), "ini_ignored:4");
+  EXPECT_EQ(setup.parameter_file, "");
+  EXPECT_TRUE(setup.unchecked.empty());
 }
 
 TEST_F(SetupFile, OnlyWarnsOfAFolderOfSubsThatItMayNotSearch) {

@@ -3,8 +3,11 @@
 //   q_i = tip[axis_i] + tool_offset[axis_i] − offset[axis_i]
 //
 // `offset` (X Y Z only) is the gauge point in M coordinates with all joints at zero. The formula is
-// linear, so forward, rates and travel bounds are exact.
+// linear, so forward, rates and travel bounds are exact. A letter may stand several times when
+// `skew_max` says how far its joints may be apart: they all move together, and the first one
+// counts.
 #include <algorithm>
+#include <numbers>
 
 #include "machine/kinematics/kinematics_table.h"
 
@@ -14,8 +17,13 @@ namespace {
 
 class Identity final : public Kinematics {
  public:
-  Identity(std::vector<Axis> axes, const Vec3& offset) : axis_of_joint_(std::move(axes)) {
-    for (const Axis axis : axis_of_joint_) axes_.add(axis);
+  Identity(std::vector<Axis> axes, const Vec3& offset, double skew_max)
+      : axis_of_joint_(std::move(axes)), skew_max_(skew_max) {
+    for (std::size_t i = 0; i < axis_of_joint_.size(); ++i) {
+      const auto first = std::find(axis_of_joint_.begin(), axis_of_joint_.end(), axis_of_joint_[i]);
+      leader_.push_back(static_cast<Eigen::Index>(first - axis_of_joint_.begin()));
+      axes_.add(axis_of_joint_[i]);
+    }
     offset_[Axis::x] = offset.x();
     offset_[Axis::y] = offset.y();
     offset_[Axis::z] = offset.z();
@@ -35,12 +43,23 @@ class Identity final : public Kinematics {
     AxisValues tip;
     for (std::size_t i = 0; i < axis_of_joint_.size(); ++i) {
       const Axis axis = axis_of_joint_[i];
-      tip[axis] = joints[static_cast<Eigen::Index>(i)] + offset_[axis] - tool_offset[axis];
+      const double apart = std::abs(joints[static_cast<Eigen::Index>(i)] - joints[leader_[i]]);
+      if (apart > skew_max_)
+        return unexpected(ReachError{std::string("the joints of axis ") + letter(axis) + " are " +
+                                     fixed(apart * (is_rotary(axis) ? degrees : 1), 3) +
+                                     (is_rotary(axis) ? " degrees" : " mm") +
+                                     " apart from each other"});
+      tip[axis] = joints[leader_[i]] + offset_[axis] - tool_offset[axis];
     }
     // An axis without a joint stays where the offset puts it.
     for (const Axis axis : {Axis::x, Axis::y, Axis::z})
       if (!axes_.has(axis)) tip[axis] = offset_[axis] - tool_offset[axis];
     return tip;
+  }
+
+  void couple(JointVector& joints) const override {
+    for (std::size_t i = 0; i < leader_.size(); ++i)
+      joints[static_cast<Eigen::Index>(i)] = joints[leader_[i]];
   }
 
   bool rates(const Target&, const JointVector&, const AxisValues& d_tip, const AxisValues& dd_tip,
@@ -64,7 +83,11 @@ class Identity final : public Kinematics {
     return joints;
   }
 
+  static constexpr double degrees = 180 / std::numbers::pi;
+
   std::vector<Axis> axis_of_joint_;
+  std::vector<Eigen::Index> leader_;  ///< first joint of the same axis
+  double skew_max_;                   ///< mm or rad
   AxisSet axes_;
   AxisValues offset_;
 };
@@ -80,15 +103,16 @@ std::optional<std::vector<Axis>> axes_of_letters(const std::string& letters) {
   return axes;
 }
 
-bool check_kinds(KinematicsInput& input, const std::string& key, const std::vector<Axis>& axes) {
+bool check_kinds(KinematicsInput& input, const std::string& key, const std::vector<Axis>& axes,
+                 bool twice) {
   bool good = true;
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const std::string name(1, letter(axes[i]));
-    if (std::count(axes.begin(), axes.end(), axes[i]) > 1 &&
+    if (!twice && std::count(axes.begin(), axes.end(), axes[i]) > 1 &&
         std::find(axes.begin(), axes.end(), axes[i]) == axes.begin() + static_cast<long>(i)) {
       input.table.error(key,
                         "two joints for axis " + name +
-                            " need type = \"gantry\"; with 'identity' each letter stands once");
+                            " need 'skew_max', how far they may be apart, or type = \"gantry\"");
       good = false;
     }
     const bool rotary = input.driven[i].kind == JointKind::rotary;
@@ -104,7 +128,7 @@ bool check_kinds(KinematicsInput& input, const std::string& key, const std::vect
 }  // namespace
 
 std::shared_ptr<const Kinematics> make_identity(const std::vector<Axis>& axes, const Vec3& offset) {
-  return std::make_shared<Identity>(axes, offset);
+  return std::make_shared<Identity>(axes, offset, std::numeric_limits<double>::infinity());
 }
 
 std::string identity_joints(config::Table& table) {
@@ -140,7 +164,14 @@ std::shared_ptr<const Kinematics> read_identity(KinematicsInput& input) {
                                letters + "'");
     return nullptr;
   }
-  return check_kinds(input, key, *axes) ? make_identity(*axes, offset) : nullptr;
+  const bool twice = input.table.has("skew_max");
+  const double skew_max = length(input.table, "skew_max", 0, input.unit_mm);
+  if (twice && !(skew_max > 0)) {
+    input.table.error("skew_max", "'skew_max' must be more than 0");
+    return nullptr;
+  }
+  if (!check_kinds(input, key, *axes, twice)) return nullptr;
+  return std::make_shared<Identity>(*axes, offset, skew_max);
 }
 
 }  // namespace aircut::machine

@@ -7,6 +7,8 @@
 // base_up), d their length and α = acos((d² + l1² − l2²) / (2 d l1)): s = atan2(v, u) ± α, + with
 // the elbow above. X Y Z are those of the wrist, so a tool's length is not followed and offsets are
 // refused. Joints: base, shoulder, elbow, then A and B, or with differential A + B and A − B.
+// Passive, when the tree has them: platform_x, _y, _z, the wrist's place (shoulder and elbow are
+// measured from the level, which no tree of hinges draws).
 #include "machine/kinematics/model.h"
 #include "machine/kinematics/parameters.h"
 
@@ -15,12 +17,18 @@ namespace aircut::machine {
 namespace {
 
 struct Scorbot : BasicModel {
-  static constexpr int joints = 5;
+  static constexpr int joints = 5, passives = 3;
   double out = 16, up = 140, l1 = 221, l2 = 221;
   bool differential = false;
+  bool follows = false;  ///< the tree has couples for the wrist's place
 
   std::string_view type() const { return "scorbot"; }
   AxisSet axes() const { return axes_of("XYZAB"); }
+  std::vector<std::string> passive_names() const {
+    if (!follows) return {};
+    return {"platform_x", "platform_y", "platform_z"};
+  }
+  int passive_count() const { return follows ? passives : 0; }
   bool rotary(int joint) const { return joint < 3; }  // the wrist's turns count
   static constexpr std::array<int, 2> branches() { return {1, -1}; }
   int branch_of(const JointVector& q) const { return std::sin(q[1] - q[2]) >= 0 ? 1 : -1; }
@@ -29,7 +37,7 @@ struct Scorbot : BasicModel {
   }
 
   template <class T>
-  std::array<T, joints> solve(const PoseWords<T>& tip, const Vec3&, int side) const {
+  std::array<T, joints + passives> solve(const PoseWords<T>& tip, const Vec3&, int side) const {
     using std::acos;
     using std::atan2;
     using std::cos;
@@ -37,12 +45,13 @@ struct Scorbot : BasicModel {
     using std::sqrt;
     const T u = sqrt(square(tip[0]) + square(tip[1])) - T(out), v = tip[2] - T(up);
     const T d = sqrt(square(u) + square(v));
-    std::array<T, joints> q{};
+    std::array<T, joints + passives> q{};
     q[0] = atan2(tip[1], tip[0]);
     q[1] = atan2(v, u) + T(side) * acos((d + T(l1 * l1 - l2 * l2) / d) * T(1 / (2 * l1)));
     q[2] = atan2(v - T(l1) * sin(q[1]), u - T(l1) * cos(q[1]));
     q[3] = differential ? tip[3] + tip[4] : tip[3];
     q[4] = differential ? tip[3] - tip[4] : tip[4];
+    for (std::size_t i = 0; i < passives; ++i) q[joints + i] = tip[i];
     return q;
   }
 
@@ -89,6 +98,7 @@ std::shared_ptr<const Kinematics> read_scorbot(KinematicsInput& input) {
   model.up = p.length("base_up", model.up);
   model.l1 = p.positive("l1", model.l1);
   model.l2 = p.positive("l2", model.l2);
+  model.follows = p.drawn("platform");
   model.differential = input.table.boolean("differential", false);
   return p.good() ? make_model(model) : nullptr;
 }

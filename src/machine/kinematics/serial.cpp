@@ -5,7 +5,9 @@
 //
 // A joint value adds to θ of its row (R) or to d (T). The tool frame T is flange · `tool`, M is
 // seen from {0} through `base`, and the pose is R_MT = Rx(A)·Ry(B)·Rz(C): six joints or more follow
-// it all, five follow the tip and the tool's direction, three and four the tip alone.
+// it all, five follow the tip and the tool's direction, three and four the tip alone. With `angles`
+// = "flange" (six joints) the words are those of the flange, R_MF = Rz(C)·Ry(B)·Rx(A), and R_MT is
+// that with the tool's own turn.
 //
 // Inverse by damped least squares (kinematics.md e.4): with the error e = [Δp; λ·rotation vector],
 // λ = 300 mm/rad,   Δq = Jᵀ(J Jᵀ + μ 1)⁻¹ e,   μ falls when |e| falls and grows when not; values
@@ -60,13 +62,6 @@ using Column6 = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
 constexpr double lambda = 300;  // mm per rad
 
-Mat3 attitude(const AxisValues& tip) {
-  return (Eigen::AngleAxisd(tip[Axis::a], Vec3::UnitX()) *
-          Eigen::AngleAxisd(tip[Axis::b], Vec3::UnitY()) *
-          Eigen::AngleAxisd(tip[Axis::c], Vec3::UnitZ()))
-      .toRotationMatrix();
-}
-
 Vec3 rotation_vector(const Mat3& R) {
   const Vec3 w = Vec3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1)) / 2;
   const double s = w.norm();
@@ -77,8 +72,13 @@ Vec3 rotation_vector(const Mat3& R) {
 class Serial final : public Kinematics {
  public:
   Serial(std::vector<DhRow> rows, bool modified, const Pose& base, const Pose& tool,
-         const JointVector& home)
-      : rows_(std::move(rows)), modified_(modified), base_(base), tool_(tool), home_(home) {
+         const JointVector& home, bool of_flange)
+      : rows_(std::move(rows)),
+        modified_(modified),
+        of_flange_(of_flange),
+        base_(base),
+        tool_(tool),
+        home_(home) {
     for (const DhRow& row : rows_) twist_.push_back({std::cos(row.alpha), std::sin(row.alpha)});
   }
 
@@ -126,6 +126,13 @@ class Serial final : public Kinematics {
     for (std::size_t i = 0; i < 3; ++i) tip[all_axes[i]] = f.p[i];
     if (freedom() < 5) return tip;
     const auto& [x, y, z] = f.axes;
+    if (of_flange_) {
+      Mat3 R;
+      R << vec3(x), vec3(y), vec3(z);
+      const Vec3 angles = angles_of({{0, 1, 2}, false}, R * tool_.linear().transpose()).angles;
+      for (std::size_t i = 0; i < 3; ++i) tip[all_axes[3 + i]] = angles[static_cast<int>(i)];
+      return tip;
+    }
     tip[Axis::a] = std::atan2(-z[1], z[2]);
     tip[Axis::b] = std::atan2(z[0], std::hypot(z[1], z[2]));
     if (freedom() == 6) tip[Axis::c] = std::atan2(-y[0], x[0]);
@@ -134,6 +141,7 @@ class Serial final : public Kinematics {
 
   std::optional<Vec3> tool_axis(const AxisValues& tip) const override {
     if (freedom() < 5) return std::nullopt;
+    if (of_flange_) return Vec3(attitude(tip).col(2));
     return tool_direction(tip[Axis::a], tip[Axis::b]);
   }
 
@@ -159,6 +167,13 @@ class Serial final : public Kinematics {
 
  private:
   static constexpr double there_mm = 1e-9;
+
+  // R_MT of the words.
+  Mat3 attitude(const AxisValues& tip) const {
+    const Vec3 angles(tip[Axis::a], tip[Axis::b], tip[Axis::c]);
+    return of_flange_ ? Mat3(about_fixed_axes(angles) * tool_.linear())
+                      : matrix_of({{0, 1, 2}, true}, angles);
+  }
 
   int freedom() const { return rows_.size() >= 6 ? 6 : rows_.size() == 5 ? 5 : 3; }
 
@@ -327,11 +342,19 @@ class Serial final : public Kinematics {
     return out;
   }
 
-  static Frame<Jet> wanted_frame(const Target& target, const AxisValues& d, const AxisValues& dd) {
+  Frame<Jet> wanted_frame(const Target& target, const AxisValues& d, const AxisValues& dd) const {
     const auto jet = [&](Axis axis) { return Jet(target.tip[axis], d[axis], dd[axis]); };
     Frame<Jet> f(Pose::Identity());
     f.p = {jet(Axis::x), jet(Axis::y), jet(Axis::z)};
     const Jet a = jet(Axis::a), b = jet(Axis::b), c = jet(Axis::c);
+    if (of_flange_) {
+      f.turn(2, cos(c), sin(c));
+      f.turn(1, cos(b), sin(b));
+      f.turn(0, cos(a), sin(a));
+      Pose turned = Pose::Identity();
+      turned.linear() = tool_.linear();
+      return on_flange(f, turned);
+    }
     f.turn(0, cos(a), sin(a));
     f.turn(1, cos(b), sin(b));
     f.turn(2, cos(c), sin(c));
@@ -346,7 +369,7 @@ class Serial final : public Kinematics {
   }
 
   std::vector<DhRow> rows_;
-  bool modified_;
+  bool modified_, of_flange_;
   Pose base_, tool_;
   JointVector home_;
   std::vector<std::array<double, 2>> twist_;  ///< cos, sin of α
@@ -422,8 +445,13 @@ std::shared_ptr<const Kinematics> read_serial(KinematicsInput& input) {
   }
   const Pose base = read_placed(p, input, "base", {0, 0, 0, 0, 0, 0});
   const Pose tool = read_placed(p, input, "tool", {0, 0, 0, 180, 0, 0});
+  const bool of_flange = p.choice("angles", {"tool", "flange"}) == "flange";
+  if (of_flange && rows.size() < 6)
+    p.fail("angles",
+           "'angles' = \"flange\" needs six joints or more: with fewer the arm can't turn "
+           "the flange to every attitude");
   if (!p.good()) return nullptr;
-  return std::make_shared<Serial>(std::move(rows), modified, base, tool, home);
+  return std::make_shared<Serial>(std::move(rows), modified, base, tool, home, of_flange);
 }
 
 }  // namespace aircut::machine
