@@ -57,6 +57,7 @@ struct RunArguments {
   std::vector<std::string> frames;
   std::string camera = "work";
   int width = 1280, height = 800;
+  std::vector<std::string> motion;  ///< forms of the animation
   std::optional<double> max_time;
 };
 

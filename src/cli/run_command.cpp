@@ -14,6 +14,7 @@
 #include "cli/print_report.h"
 #include "log/log.h"
 #include "logbook/logbook.h"
+#include "page/glb.h"
 #include "page/page.h"
 #include "report/line_times.h"
 #include "semantics/semantics.h"
@@ -229,6 +230,8 @@ int run_command(const RunArguments& a) {
   if (!frames) return fail(frames.error());
   if (a.folder.empty() && !a.frames.empty() && wants_frames(a))
     return fail(make_error("usage", "--frames needs -o DIR to write into"));
+  if (a.folder.empty() && !a.motion.empty())
+    return fail(make_error("usage", "--motion needs -o DIR to write into"));
   if (const auto ok = check_outputs(a); !ok) return fail(ok.error());
   const bool as_hdf5 = fs::path(a.log).extension() == ".h5";
   if (as_hdf5)
@@ -416,9 +419,16 @@ int run_command(const RunArguments& a) {
   if (replay && stop_signal == 0) {
     const auto history = simulator.stock_history(page::stock_steps);
     if (!history) return fail(history.error());
-    const auto page = page::page_html({report, *replay, a.folder, history->get()});
-    if (!page) return fail(page.error());
-    if (auto written = write_file(a.folder + "/report.html", *page); !written)
+    const auto stock = page::stock_stages(*replay, history->get());
+    if (!stock) return fail(stock.error());
+    if (!a.motion.empty()) {
+      if (auto written = write_file(a.folder + "/motion.glb", page::glb_bytes(*replay, *stock));
+          !written)
+        return fail(written.error());
+      report.outputs.push_back("motion.glb");
+    }
+    const std::string page = page::page_html({report, *replay, a.folder, *stock});
+    if (auto written = write_file(a.folder + "/report.html", page); !written)
       return fail(written.error());
     report.outputs.push_back("report.html");
   }

@@ -20,12 +20,10 @@ using report::Json;
 constexpr double degrees = 180 / M_PI;
 constexpr std::size_t most_program_bytes = 8'000'000;
 constexpr std::size_t most_picture_bytes = 3'500'000;  // of all pictures together
-constexpr std::size_t most_stock_triangles = 30'000;
 constexpr std::size_t most_body_triangles = 60'000;
 // What a slow browser draws while the picture moves.
 constexpr std::size_t coarse_stock_triangles = 4'000;
 constexpr std::size_t coarse_body_triangles = 400;
-constexpr int stock_stages = 12;
 constexpr std::size_t most_findings = 1000;
 
 Json json(const Row& row) { return {{"at", row.at}, {"count", row.count}}; }
@@ -86,9 +84,12 @@ std::string hex(const machine::Color& c) {
 }
 
 Json body(Packer& packer, const machine::Body& b) {
-  return {{"name", utf8(b.name)},   {"role", machine::to_string(b.role)},
-          {"link", index(b.link)},  {"color", hex(b.color)},
-          {"pose", matrix(b.X_LB)}, {"mesh", packer.mesh(at_most(*b.mesh, most_body_triangles))},
+  return {{"name", utf8(b.name)},
+          {"role", machine::to_string(b.role)},
+          {"link", index(b.link)},
+          {"color", hex(b.color)},
+          {"pose", matrix(b.X_LB)},
+          {"mesh", packer.mesh(at_most(*b.mesh, most_body_triangles))},
           {"coarse", packer.coarse(*b.mesh, coarse_body_triangles)}};
 }
 
@@ -110,31 +111,14 @@ Json bodies(Packer& packer, const Replay& replay) {
   return out;
 }
 
-// Seven rows for each link: where its frame is in the world, mm, and its turn as a quaternion.
 Json links(Packer& packer, const Replay& replay) {
-  const machine::Machine& machine = replay.machine();
-  const std::size_t n = machine.links().size();
-  std::vector<std::array<std::vector<double>, 7>> rows(n);
-  std::vector<Eigen::Quaterniond> before(n, Eigen::Quaterniond::Identity());
-  machine::LinkPoses poses;
-  for (const Replay::Key& key : replay.keys()) {
-    machine::forward(machine, key.joints, poses);
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec3 at = poses.X_WL[i].translation();
-      Eigen::Quaterniond turn(poses.X_WL[i].linear());
-      if (turn.dot(before[i]) < 0) turn.coeffs() *= -1;  // the nearer of the two that mean the same
-      before[i] = turn;
-      for (int k = 0; k < 3; ++k) rows[i][static_cast<std::size_t>(k)].push_back(at[k]);
-      for (int k = 0; k < 4; ++k)
-        rows[i][static_cast<std::size_t>(3 + k)].push_back(turn.coeffs()[k]);
-    }
-  }
   Json out = Json::array();
-  for (std::size_t i = 0; i < n; ++i) {
+  const auto tracks = link_tracks(replay);
+  for (std::size_t i = 0; i < tracks.size(); ++i) {
     Json packed = Json::array();
     for (std::size_t k = 0; k < 7; ++k)
-      packed.push_back(packer.numbers(rows[i][k], k < 3 ? 1e-3 : 1e-6));
-    out.push_back({{"name", utf8(machine.links()[i].name)}, {"rows", std::move(packed)}});
+      packed.push_back(packer.numbers(tracks[i][k], k < 3 ? 1e-3 : 1e-6));
+    out.push_back({{"name", utf8(replay.machine().links()[i].name)}, {"rows", std::move(packed)}});
   }
   return out;
 }
@@ -273,7 +257,7 @@ void replace(std::string& text, std::string_view mark, std::string_view by) {
 
 }  // namespace
 
-Expected<std::string> page_html(const PageInput& input) {
+std::string page_html(const PageInput& input) {
   const Replay& replay = input.replay;
   Packer packer;
   Json run = {
@@ -290,14 +274,10 @@ Expected<std::string> page_html(const PageInput& input) {
        {{"link", index(replay.machine().work_link())}, {"pose", matrix(replay.machine().X_LM())}}},
       {"pictures", pictures(input)}};
   Json stages = Json::array();
-  for (int i = 0; input.history && i <= stock_stages; ++i) {
-    const double t = replay.keys().back().t * i / stock_stages;
-    const auto mesh = input.history->at(t);
-    if (!mesh) return unexpected(mesh.error());
-    stages.push_back({{"t", t},
-                      {"mesh", packer.mesh(at_most(**mesh, most_stock_triangles))},
-                      {"coarse", packer.coarse(**mesh, coarse_stock_triangles)}});
-  }
+  for (const StockStage& stage : input.stock)
+    stages.push_back({{"t", stage.t},
+                      {"mesh", packer.mesh(stage.mesh)},
+                      {"coarse", packer.coarse(stage.mesh, coarse_stock_triangles)}});
   run["stock"] = std::move(stages);
 
   std::string page(asset_page());

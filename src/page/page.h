@@ -6,11 +6,10 @@
 // markup.
 #pragma once
 
-#include <memory>
+#include <span>
 #include <string>
-#include <vector>
 
-#include "page/replay.h"
+#include "page/tracks.h"
 #include "report/report.h"
 
 namespace aircut::page {
@@ -22,10 +21,10 @@ struct PageInput {
   const report::RunReport& report;
   const Replay& replay;
   std::string folder;  ///< where the report's pictures are (sheet.png, frames/…)
-  sim::StockHistory* history = nullptr;  ///< null: the stock stays as it was
+  std::span<const StockStage> stock = {};  ///< none: the stock stays as it was
 };
 
-/// The whole page. Errors: those of the history.
-Expected<std::string> page_html(const PageInput& input);
+/// The whole page.
+std::string page_html(const PageInput& input);
 
 }  // namespace aircut::page

@@ -129,23 +129,21 @@ TEST_F(ReplayOf, HostileTextsStayInsideTheData) {
   run("G21 G90 F600\n(</script><script>alert(1)</script>)\nG1 X30\nM2\n");
   const report::testing::HostileSamples samples;
   const auto page = page_html({samples.report(), *replay, "/nonexistent"});
-  ASSERT_TRUE(page);
   const auto plain = page_html({report::RunReport{}, *replay, "/nonexistent"});
-  ASSERT_TRUE(plain);
   for (const char* tag : {"<script", "</script", "<!--", "<b>", "<img"})
-    EXPECT_EQ(count(*page, tag), count(*plain, tag)) << tag;
+    EXPECT_EQ(count(page, tag), count(plain, tag)) << tag;
   // What is between the marks is JSON, and says what was given.
   const std::string begin = "id=\"run\">";
-  const std::size_t from = page->find(begin) + begin.size();
-  const auto json = nlohmann::json::parse(page->substr(from, page->find("</script>", from) - from));
+  const std::size_t from = page.find(begin) + begin.size();
+  const auto json = nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
   EXPECT_EQ(json["report"]["verdict"], "fail");
   EXPECT_NE(json["report"]["machine"].get<std::string>().find("</script>"), std::string::npos);
 }
 
 TEST_F(ReplayOf, TheSameRunGivesTheSamePage) {
   run("G21 G90 F600\nG1 X30\nG2 X0 I-15 J0\nM2\n");
-  EXPECT_EQ(*page_html({report::RunReport{}, *replay, "."}),
-            *page_html({report::RunReport{}, *replay, "."}));
+  EXPECT_EQ(page_html({report::RunReport{}, *replay, "."}),
+            page_html({report::RunReport{}, *replay, "."}));
 }
 
 }  // namespace
