@@ -200,7 +200,7 @@ struct Fields {
   void operator()(const SetSpindleMode& c) const {
     name("spindle_mode");
     o.text("mode", c.css_max_rpm == 0 ? "rpm" : "surface_speed");
-    if (c.css_max_rpm != 0) o.number("max_rpm", c.css_max_rpm);
+    if (has_limit(c)) o.number("max_rpm", c.css_max_rpm);
     o.integer("spindle", c.spindle);
   }
   void operator()(const SetSpindleSpeed& c) const {

@@ -116,9 +116,9 @@ struct ToText {
   }
   std::string operator()(const SetNaiveCam& c) const { return "naive_cam " + tidy(c.tolerance); }
   std::string operator()(const SetSpindleMode& c) const {
-    return (c.css_max_rpm == 0 ? "spindle_mode rpm"
-                               : "spindle_mode surface_speed max " + tidy(c.css_max_rpm)) +
-           spindle_text(c.spindle);
+    std::string text = c.css_max_rpm == 0 ? "spindle_mode rpm" : "spindle_mode surface_speed";
+    if (has_limit(c)) text += " max " + tidy(c.css_max_rpm);
+    return text + spindle_text(c.spindle);
   }
   std::string operator()(const SetSpindleSpeed& c) const {
     return "spindle_speed " + tidy(c.value) + spindle_text(c.spindle);

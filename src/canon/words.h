@@ -27,6 +27,11 @@ inline std::string tidy(double value) {
   return out == "-0" ? "0" : out;
 }
 
+/// G96 with a highest speed: without D the control has none, which is written as 1e30.
+inline bool has_limit(const SetSpindleMode& mode) {
+  return mode.css_max_rpm != 0 && mode.css_max_rpm < 1e9;
+}
+
 /// The Nth of a list of words; enumerators and words stand in the same order.
 template <class Enum, std::size_t N>
 constexpr const char* word(Enum value, const char* const (&words)[N]) {

@@ -81,6 +81,7 @@ TEST(Text, NamesASpindleOnlyWhenItIsNotTheFirst) {
   EXPECT_EQ(to_text(TurnSpindle{.spindle = 0, .turn = SpindleTurn::clockwise}), "spindle cw");
   EXPECT_EQ(to_text(TurnSpindle{.spindle = 2, .turn = SpindleTurn::stop}), "spindle stop $2");
   EXPECT_EQ(to_text(SetSpindleMode{.css_max_rpm = 2000}), "spindle_mode surface_speed max 2000");
+  EXPECT_EQ(to_text(SetSpindleMode{.css_max_rpm = 1e30}), "spindle_mode surface_speed");
 }
 
 TEST(Text, OfEveryCommandIsOneLineWithAWordFirst) {
