@@ -1,15 +1,23 @@
 #include "canon/canon.h"
 
+#include <array>
+
 namespace aircut::canon {
 
+namespace {
+
+template <class... T>
+constexpr std::array<bool, sizeof...(T)> motions(const std::variant<T...>*) {
+  return {(std::is_same_v<T, Rapid> || std::is_same_v<T, LinearFeed> ||
+           std::is_same_v<T, ArcFeed> || std::is_same_v<T, SplineFeed> ||
+           std::is_same_v<T, SyncFeed> || std::is_same_v<T, Probe>)...};
+}
+
+}  // namespace
+
 bool is_motion(const Action& action) {
-  return std::visit(
-      []<class T>(const T&) {
-        return std::is_same_v<T, Rapid> || std::is_same_v<T, LinearFeed> ||
-               std::is_same_v<T, ArcFeed> || std::is_same_v<T, SplineFeed> ||
-               std::is_same_v<T, SyncFeed> || std::is_same_v<T, Probe>;
-      },
-      action);
+  static constexpr auto moves = motions(static_cast<const Action*>(nullptr));
+  return moves[action.index()];
 }
 
 AxisValues end_of(const Action& action, const AxisValues& start) {

@@ -77,7 +77,9 @@ struct OWord {
   std::optional<Value> computed;  ///< label given as an expression
   std::vector<Value> arguments;
   std::vector<Place> argument_places;
-  std::int32_t entry = -1;  ///< index in the file's flow index once known
+  std::int32_t entry = -1;             ///< index in the file's flow index once known
+  std::int32_t jump_entry = -1;        ///< where it has led last: an entry of the index
+  struct Block* jump_block = nullptr;  ///< the kept line of that entry
 };
 
 /// A line of a program by its place.
@@ -93,12 +95,13 @@ struct Block {
   std::uint32_t length = 0;      ///< bytes without line end and trailing blanks
   std::uint64_t next_begin = 0;  ///< where the following line starts
   bool block_delete = false;
-  bool empty = true;             ///< nothing but blanks
-  bool has_rules = false;        ///< has G or M words
-  bool plain_settings = true;    ///< macro B: of no system variable
-  bool plain_move = true;        ///< nothing but words of a move (move_letters) and perhaps G0-G3
-  std::uint32_t letters = 0;     ///< bit per letter_index of a word
-  bool has_expressions = false;  ///< some word needs evaluation
+  bool empty = true;           ///< nothing but blanks
+  bool has_rules = false;      ///< has G or M words
+  bool plain_settings = true;  ///< macro B: of no system variable
+  bool plain_move = true;      ///< nothing but words of a move (move_letters) and perhaps G0-G3
+  const CodeRule* plain_rule = nullptr;  ///< of that G0-G3
+  std::uint32_t letters = 0;             ///< bit per letter_index of a word
+  bool has_expressions = false;          ///< some word needs evaluation
   std::vector<Word> words;
   std::array<std::int8_t, 32> slot{};  ///< letter_index → position in words, -1 without
   std::vector<Setting> settings;

@@ -39,7 +39,7 @@ bool Interpreter::Impl::follows_from_position(const Fault& fault, Block& block) 
   if (!by_position || !unsure_.tip || state_.comp.side != CompSide::off) return false;
   ModalState trial = state_;
   trial.tip = *unsure_.tip;
-  std::vector<canon::Command> nowhere;
+  CommandQueue nowhere;
   BlockRun run(session_, block, trial, *this, nowhere);
   run_block(run, block);
   parameters_.roll_back();

@@ -235,7 +235,7 @@ CodeTable::CodeTable(Dialect dialect, bool lathe) : dialect_(&traits_of(dialect)
     for (std::size_t code = 101; code < 200; ++code) m_[code] = m_[100];
 }
 
-const CodeRule* CodeTable::find(char letter, double number) const {
+const CodeRule* CodeTable::find_rounded(char letter, double number) const {
   const double scaled = letter == 'G' ? number * 10 : number;
   const int count = letter == 'G' ? max_g : max_m;
   if (!(scaled > -1 && scaled < count)) return nullptr;

@@ -114,7 +114,12 @@ class CodeTable {
   /// A turning centre's table (Fanuc, Haas).
   bool lathe() const { return lathe_; }
   /// The row of a G or M word, or null when there is no such code.
-  const CodeRule* find(char letter, double number) const;
+  const CodeRule* find(char letter, double number) const {
+    const int whole = number >= 0 && number < max_g / 10 ? static_cast<int>(number) : -1;
+    if (whole != number) return find_rounded(letter, number);
+    return letter == 'G' ? g_[static_cast<std::size_t>(whole * 10)]
+                         : m_[static_cast<std::size_t>(whole)];
+  }
   const CodeRule* find_g(int code) const {
     return code >= 0 && code < max_g ? g_[static_cast<std::size_t>(code)] : nullptr;
   }
@@ -131,6 +136,8 @@ class CodeTable {
   }
 
  private:
+  const CodeRule* find_rounded(char letter, double number) const;
+
   const DialectTraits* dialect_;
   bool lathe_ = false;
   std::array<const CodeRule*, max_g> g_{};

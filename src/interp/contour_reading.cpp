@@ -23,7 +23,10 @@ void Interpreter::Impl::start_contour(const FlowRequest& request, const CodeRule
   if (!file) return;
   const int at = file->flow->find_sub(label);
   FlowEntry& sub = file->flow->entries[static_cast<std::size_t>(at)];
-  if (sub.problem_kind) return report(sub.problem_kind, place, sub.problem);
+  if (sub.fault != FlowFault::none) {
+    FlowProblem problem = file->flow->problem_of(at);
+    return report(problem.kind, place, std::move(problem.text));
+  }
   if (!sub.passed && file == frames_.front().file) sub.called_ahead = true;
   sub.passed = true;
   const std::vector<double> no_arguments;
@@ -109,7 +112,7 @@ void Interpreter::Impl::finish_contour(std::unique_ptr<ContourReading> reading) 
     done.rule->handler(*done.rule, run);
   if (!doubt.empty()) run.warning("control_setting", run.place(*done.rule), doubt);
   if (!run.ok()) {
-    queue_.resize(first);
+    queue_.shorten(first);
     parameters_.roll_back();
     report(*run.fault());
     return remember_failure(done.cycle);

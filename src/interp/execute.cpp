@@ -95,12 +95,11 @@ void BlockExecutor::call_remap(std::size_t at) {
 
 // Words and settings read the parameters as they are before the line. But a name that is new is 0
 // from where the line sets it: `#<n>=[#<n>+1]` gives 1.
-std::optional<double> BlockExecutor::value_of(const Value& value) {
+bool BlockExecutor::value_of(const Value& value, double& number) {
   Parameters& parameters = run_.session.parameters;
   while (true) {
     std::optional<Fault> fault;
-    const auto number = interp::evaluate(value, block_.code, parameters, fault);
-    if (number) return number;
+    if (interp::evaluate(value, block_.code, parameters, number, fault)) return true;
     const bool undefined = std::string_view(fault->kind) == "parameter_undefined";
     const auto is_new = [&](const Setting& setting) {
       return undefined && setting.name >= 0 && setting.place.begin < fault->place.begin &&
@@ -109,7 +108,7 @@ std::optional<double> BlockExecutor::value_of(const Value& value) {
     const auto found = std::find_if(block_.settings.begin(), block_.settings.end(), is_new);
     if (found == block_.settings.end()) {
       run_.fault_ = fault;
-      return std::nullopt;
+      return false;
     }
     parameters.write_named(found->name, 0);
   }
@@ -120,11 +119,9 @@ bool BlockExecutor::evaluate() {
   if (!block_.has_expressions) return true;
   for (Word& word : block_.words) {
     if (word.text.constant()) continue;
-    const auto value = value_of(word.text);
-    if (!value) return false;
-    word.number = *value;
+    if (!value_of(word.text, word.number)) return false;
     if (word.letter == 'G' || word.letter == 'M')
-      word.rule = run_.session.table.find(word.letter, *value);
+      word.rule = run_.session.table.find(word.letter, word.number);
   }
   return true;
 }
@@ -141,8 +138,8 @@ bool BlockExecutor::settings() {
   std::array<Set, 64> set;
   std::size_t count = 0;
   for (const Setting& setting : block_.settings) {
-    const auto value = value_of(setting.value);
-    if (!value) return false;
+    double value = 0, target = 0;
+    if (!value_of(setting.value, value)) return false;
     if (setting.name >= 0) {
       if (parameters.read_only_name(setting.name)) {
         run_.error("parameter_read_only", setting.place,
@@ -150,15 +147,14 @@ bool BlockExecutor::settings() {
                        "> can't be set; use a name of your own");
         return false;
       }
-      set[count++] = {-1 - setting.name, *value};
+      set[count++] = {-1 - setting.name, value};
       continue;
     }
-    const auto target = value_of(setting.target);
-    if (!target) return false;
-    const auto index = as_integer(*target);
+    if (!value_of(setting.target, target)) return false;
+    const auto index = as_integer(target);
     if (!index || !Parameters::in_range(*index)) {
       run_.error("parameter_range", setting.place,
-                 "there is no parameter #" + shortest(*target) + "; numbers go from 1 to " +
+                 "there is no parameter #" + shortest(target) + "; numbers go from 1 to " +
                      std::to_string(number::last));
       return false;
     }
@@ -168,7 +164,7 @@ bool BlockExecutor::settings() {
           "#" + std::to_string(*index) + " follows from the machine's state and can't be set");
       return false;
     }
-    set[count++] = {*index, *value};
+    set[count++] = {*index, value};
   }
   for (std::size_t i = 0; i < count; ++i) {
     const auto [target, value] = set[i];

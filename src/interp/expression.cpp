@@ -223,9 +223,12 @@ constexpr int key(Op op, Right right) { return static_cast<int>(op) * 3 + static
 
 // The top of the stack is kept in a register. What loops are made of is done here; the rest by the
 // machine, which sees the same stack.
-std::optional<double> evaluate(const Value& value, const Code& code, const Parameters& parameters,
-                               std::optional<Fault>& fault) {
-  if (value.constant()) return value.number;
+bool evaluate(const Value& value, const Code& code, const Parameters& parameters, double& number,
+              std::optional<Fault>& fault) {
+  if (value.constant()) {
+    number = value.number;
+    return true;
+  }
   Machine machine(parameters, fault);
   double* below = machine.stack.data();  // one behind the operands below the top
   double top = 0;                        // the first push puts this aside, and nobody takes it
@@ -284,8 +287,7 @@ std::optional<double> evaluate(const Value& value, const Code& code, const Param
                              : at->right == Right::number ? at->number
                                                           : parameter();
         if (right == 0) {
-          machine.fail(*at, "division by zero; the divisor must not be 0");
-          return std::nullopt;
+          return machine.fail(*at, "division by zero; the divisor must not be 0");
         }
         top = (at->right == Right::stack ? *--below : top) / right;
         break;
@@ -296,8 +298,14 @@ std::optional<double> evaluate(const Value& value, const Code& code, const Param
       case key(Op::cos, Right::stack):
         top = cosine(top);
         break;
+      case key(Op::cos, Right::parameter):
+        push(cosine(parameter()));
+        break;
       case key(Op::sin, Right::stack):
         top = sine(top);
+        break;
+      case key(Op::sin, Right::parameter):
+        push(sine(parameter()));
         break;
       case key(Op::read, Right::stack):
         if (Parameters::always_readable(at->id)) {
@@ -310,17 +318,15 @@ std::optional<double> evaluate(const Value& value, const Code& code, const Param
         if (at->right == Right::parameter) push(parameter());
         push(0);  // puts the top on the machine's stack
         machine.depth = static_cast<std::size_t>(below - machine.stack.data());
-        if (!machine.step(*at)) return std::nullopt;
+        if (!machine.step(*at)) return false;
         top = machine.pop();
         below = machine.stack.data() + machine.depth;
         continue;
     }
-    if (!std::isfinite(top)) {
-      machine.fail(*at, not_finite);
-      return std::nullopt;
-    }
+    if (!std::isfinite(top)) return machine.fail(*at, not_finite);
   }
-  return top;
+  number = top;
+  return true;
 }
 
 std::optional<int> as_integer(double value) {

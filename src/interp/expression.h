@@ -108,10 +108,18 @@ struct Fault {
   std::string message;
 };
 
-/// The number, or nothing with `fault` filled in. Never infinity, and NaN only for a vacant
-/// variable of macro B.
-std::optional<double> evaluate(const Value& value, const Code& code, const Parameters& parameters,
-                               std::optional<Fault>& fault);
+/// Computes `number`, or gives false with `fault` filled in. Never infinity, and NaN only for a
+/// vacant variable of macro B. (Not an optional: handing one back costs as much as a short
+/// expression, because the processor waits for its byte and its number to reach the memory.)
+bool evaluate(const Value& value, const Code& code, const Parameters& parameters, double& number,
+              std::optional<Fault>& fault);
+/// The same where that does not matter.
+inline std::optional<double> evaluate(const Value& value, const Code& code,
+                                      const Parameters& parameters, std::optional<Fault>& fault) {
+  double number = 0;
+  if (!evaluate(value, code, parameters, number, fault)) return std::nullopt;
+  return number;
+}
 
 /// The integer that a value means (within 1e-4, as the reference), or nothing.
 std::optional<int> as_integer(double value);

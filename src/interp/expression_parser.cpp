@@ -166,6 +166,7 @@ const Operator* LineParser::peek_operator() {
 }
 
 bool LineParser::climb(int level) {
+  const std::size_t left = out_.code.size();
   if (!operand()) return false;
   while (true) {
     const Operator* op = peek_operator();
@@ -177,19 +178,39 @@ bool LineParser::climb(int level) {
     const bool sees_vacant = op->op == Op::same || op->op == Op::not_same;
     if (table_.dialect().macro_b) note_logic(*op, place);
     if (!sees_vacant) make_solid();
+    const std::size_t right = out_.code.size();
     if (!climb(op->level + 1)) return false;
     if (!sees_vacant) make_solid();
-    emit_binary(op->op, place);
+    emit_binary(op->op, place, left, right);
   }
 }
 
 // A right operand that is a number or a parameter as most are goes into the instruction itself: the
-// last instruction pushes only if it is the whole of the operand.
-void LineParser::emit_binary(Op op, Place place) {
+// last instruction pushes only if it is the whole of the operand. A number on the left of + or *
+// may as well stand on the right. The operands' instructions begin at `left` and `right`.
+void LineParser::emit_binary(Op op, Place place, std::size_t left, std::size_t right) {
   Instruction& last = out_.code.back();
   const bool plain = last.op == Op::read && Parameters::always_readable(last.id);
-  if (last.op != Op::number && !plain) return emit(op, place);
-  last.right = plain ? Right::parameter : Right::number;
+  if (last.op == Op::number || plain) {
+    last.right = plain ? Right::parameter : Right::number;
+    last.op = op;
+    last.place = place;
+    return;
+  }
+  const bool swaps = (op == Op::add || op == Op::multiply) && right == left + 1 &&
+                     out_.code[left].op == Op::number;
+  if (!swaps) return emit(op, place);
+  const double number = out_.code[left].number;
+  out_.code.erase(out_.code.begin() + static_cast<std::ptrdiff_t>(left));
+  emit(op, place, number);
+  out_.code.back().right = Right::number;
+}
+
+// The same for the operand of a function.
+void LineParser::emit_unary(Op op, Place place) {
+  Instruction& last = out_.code.back();
+  if (last.op != Op::read || !Parameters::always_readable(last.id)) return emit(op, place);
+  last.right = Right::parameter;
   last.op = op;
   last.place = place;
 }
@@ -209,13 +230,15 @@ bool LineParser::function(std::uint32_t begin) {
           std::string("the function ") + known.name + " needs its argument in brackets");
     if (known.op == Op::exists) return exists(begin);
     if (!expression_in_brackets()) return false;
-    if (known.op == Op::atan) {
-      if (!in_.accept('/'))
-        return fail_here("bad_expression", "ATAN needs two arguments: atan[y]/[x]");
-      if (in_.peek() != '[')
-        return fail_here("bad_expression", "the second argument of ATAN must be in brackets");
-      if (!expression_in_brackets()) return false;
+    if (known.op != Op::atan) {
+      emit_unary(known.op, place);
+      return true;
     }
+    if (!in_.accept('/'))
+      return fail_here("bad_expression", "ATAN needs two arguments: atan[y]/[x]");
+    if (in_.peek() != '[')
+      return fail_here("bad_expression", "the second argument of ATAN must be in brackets");
+    if (!expression_in_brackets()) return false;
     emit(known.op, place);
     return true;
   }

@@ -4,6 +4,9 @@
 #include "interp/flow.h"
 
 #include <algorithm>
+#include <limits>
+#include <tuple>
+#include <utility>
 
 #include "base/text.h"
 #include "interp/dialect.h"
@@ -13,7 +16,8 @@
 namespace aircut::interp {
 namespace {
 
-constexpr std::size_t max_open = 1000;  // the searches below go through all that is open
+constexpr std::size_t max_problems = 20'000;  // with a text of their own
+constexpr std::size_t max_subs = 10'000;      // found without reading the program again
 
 const char* text_of(Keyword keyword) {
   switch (keyword) {
@@ -92,24 +96,56 @@ bool is_percent(std::string_view line) {
   return line.find_first_not_of(" \t", first + 1) == std::string_view::npos;
 }
 
+const char* kind_of(FlowFault fault) {
+  switch (fault) {
+    case FlowFault::reused:
+      return "label_reused";
+    case FlowFault::nesting:
+      return "flow_nesting";
+    case FlowFault::syntax:
+      return "flow_syntax";
+    case FlowFault::limit:
+      return "limit_reached";
+    default:
+      return "label_missing";
+  }
+}
+
+// FNV-1a, 64 bits: two labels of the same hash are compared by their texts.
+std::uint64_t hash_of(std::string_view label) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : label) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
+
 }  // namespace
 
 FlowIndex::FlowIndex(const SourceText& source, std::uint64_t begin, bool block_delete,
-                     bool stops_at_percent, Parameters& parameters, const CodeTable& table) {
-  if (table.dialect().macro_b) {
-    read_macro_b(source, begin, block_delete, stops_at_percent, parameters, table);
-    return;
-  }
-  const std::string_view text = source.content();
-  Reading reading(source);
+                     bool stops_at_percent, Parameters& parameters, const CodeTable& table)
+    : source_(source), parameters_(parameters), table_(table) {
+  if (table.dialect().macro_b)
+    read_macro_b(begin, block_delete, stops_at_percent);
+  else
+    read_o_words(begin, block_delete, stops_at_percent);
+  const auto by_name = [](const SubName& a, const SubName& b) {
+    return std::tie(a.fanuc, a.hash, a.entry) < std::tie(b.fanuc, b.hash, b.entry);
+  };
+  if (!names_.sort(by_name)) overfull_ = true;
+}
+
+bool FlowIndex::add(const FlowEntry& entry) {
+  const bool fits = entries.size() < std::numeric_limits<std::int32_t>::max();
+  if (!fits || !entries.push_back(entry)) overfull_ = true;
+  return !overfull_;
+}
+
+void FlowIndex::read_o_words(std::uint64_t begin, bool block_delete, bool stops_at_percent) {
+  const std::string_view text = source_.content();
+  Reading reading(source_);
   Block block;
   std::uint64_t line_number = 0;
   bool first = true;
-  while (begin < text.size()) {
-    if (entries.size() >= max_entries) {
-      overfull_ = true;
-      break;
-    }
+  while (begin < text.size() && !overfull_) {
     const LineExtent extent = find_line_end(text, begin, &reading);
     const std::string_view line = text.substr(begin, extent.end - begin);
     ++line_number;
@@ -121,116 +157,164 @@ FlowIndex::FlowIndex(const SourceText& source, std::uint64_t begin, bool block_d
     if (starts_with_o(line, deleted) && !(deleted && block_delete)) {
       block.clear();
       // A line whose condition can't be read still is what its keyword says.
-      parse_line(line, parameters, table, block);
+      parse_line(line, parameters_, table_, block);
       if (block.oword.keyword != Keyword::none && block.oword.keyword != Keyword::call) {
         FlowEntry entry;
         entry.begin = begin;
-        entry.after = extent.next;
         entry.line = line_number;
         entry.keyword = block.oword.keyword;
-        entry.label = block.oword.label;
-        entry.place = block.oword.place;
-        entries.push_back(std::move(entry));
+        if (!add(entry)) break;
+        connect(static_cast<int>(entries.size()) - 1, block.oword.label);
       }
     }
     begin = extent.next;
   }
-  connect();
-}
-
-int FlowIndex::at(std::uint64_t begin) const {
-  const auto found =
-      std::lower_bound(entries.begin(), entries.end(), begin,
-                       [](const FlowEntry& entry, std::uint64_t b) { return entry.begin < b; });
-  if (found == entries.end() || found->begin != begin) return -1;
-  return static_cast<int>(found - entries.begin());
-}
-
-int FlowIndex::find_sub(std::string_view label) const {
-  const auto found = subs_.find(label);
-  return found == subs_.end() ? -1 : found->second;
-}
-
-int FlowIndex::find_fanuc(std::string_view label, std::uint64_t after) const {
-  int found = -1;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    if (entries[i].keyword != Keyword::fanuc_sub || entries[i].label != label) continue;
-    found = static_cast<int>(i);
-    if (entries[i].begin > after) return found;
-  }
-  return found;
-}
-
-void FlowIndex::problem(int at, const char* kind, std::string text) {
-  FlowEntry& entry = entries[static_cast<std::size_t>(at)];
-  if (entry.problem_kind) return;
-  entry.problem_kind = kind;
-  entry.problem = std::move(text);
-}
-
-void FlowIndex::connect() {
-  for (int i = 0; i < static_cast<int>(entries.size()); ++i) {
-    FlowEntry& entry = entries[static_cast<std::size_t>(i)];
-    entry.sub = sub_;
-    switch (entry.keyword) {
-      case Keyword::sub:
-        if (sub_ >= 0) {
-          problem(i, "flow_nesting",
-                  "a sub can't be defined inside another one; close that with endsub before");
-          break;
-        }
-        end_scope();
-        subs_.emplace(entry.label, i);  // the first one counts
-        sub_ = i;
-        break;
-      case Keyword::endsub:
-        if (sub_ < 0 || entries[static_cast<std::size_t>(sub_)].label != entry.label) {
-          problem(i, "label_missing", "there is no o" + entry.label + " sub for this endsub");
-          break;
-        }
-        end_scope();
-        entry.partner = sub_;
-        entries[static_cast<std::size_t>(sub_)].partner = i;
-        sub_ = -1;
-        break;
-      case Keyword::if_:
-      case Keyword::do_:
-      case Keyword::repeat:
-        open(i);
-        break;
-      case Keyword::while_: {
-        const bool closes = std::any_of(open_.begin(), open_.end(), [&](int other) {
-          const FlowEntry& o = entries[static_cast<std::size_t>(other)];
-          return o.keyword == Keyword::do_ && o.label == entry.label;
-        });
-        if (closes)
-          close(i);
-        else
-          open(i);
-        break;
-      }
-      case Keyword::endif:
-      case Keyword::endwhile:
-      case Keyword::endrepeat:
-        close(i);
-        break;
-      case Keyword::elseif:
-      case Keyword::else_:
-        branch(i);
-        break;
-      case Keyword::break_:
-      case Keyword::continue_:
-        leave_loop(i);
-        break;
-      default:
-        break;
-    }
-  }
   end_scope();
   if (sub_ >= 0)
-    problem(
-        sub_, "label_missing",
-        "this sub has no end; add o" + entries[static_cast<std::size_t>(sub_)].label + " endsub");
+    problem(sub_, FlowFault::missing, "this sub has no end; add o" + sub_label_ + " endsub");
+  find_reused_labels();
+}
+
+FlowLine FlowIndex::line_of(int at) {
+  const std::uint64_t begin = entries[static_cast<std::size_t>(at)].begin;
+  const std::string_view text = source_.content();
+  const LineExtent extent = find_line_end(text, begin);
+  Block block;
+  block.clear();
+  parse_line(text.substr(begin, extent.end - begin), parameters_, table_, block);
+  return {std::move(block.oword.label), block.oword.place, extent.next};
+}
+
+std::uint64_t FlowIndex::after(int at) {
+  return find_line_end(source_.content(), entries[static_cast<std::size_t>(at)].begin).next;
+}
+
+FlowProblem FlowIndex::problem_of(int at) {
+  const char* kind = kind_of(entries[static_cast<std::size_t>(at)].fault);
+  const auto found = problems_.find(at);
+  if (found != problems_.end()) return {kind, found->second};
+  return {kind, "this O-word and the others of the program do not fit together (one of more than " +
+                    std::to_string(max_problems) + " such problems)"};
+}
+
+// Programs mostly come from one entry to the next.
+int FlowIndex::at(std::uint64_t begin) {
+  const auto next = static_cast<std::size_t>(last_ + 1);
+  std::size_t found = next;
+  if (next >= entries.size() || entries[next].begin != begin)
+    found = entries.lower_bound(
+        begin, [](const FlowEntry& entry, std::uint64_t b) { return entry.begin < b; });
+  if (found == entries.size() || entries[found].begin != begin) return -1;
+  return last_ = static_cast<int>(found);
+}
+
+// ---- subs ------------------------------------------------------------------------------------
+
+// The first sub of a name counts, and the first ones are found fastest.
+void FlowIndex::name(int at, const std::string& label, bool fanuc) {
+  if (!fanuc && subs_.size() < max_subs) {
+    subs_.emplace(label, at);
+    return;
+  }
+  if (!fanuc && subs_.contains(label)) return;
+  if (!names_.push_back({hash_of(label), fanuc, at})) overfull_ = true;
+}
+
+bool FlowIndex::name_sub(int at, const std::string& label) {
+  const auto [place, is_new] = subs_.insert_or_assign(label, at);
+  if (is_new) ++computed_;
+  return computed_ <= max_computed;
+}
+
+int FlowIndex::find_sub(std::string_view label) {
+  const auto found = subs_.find(label);
+  if (found != subs_.end()) return found->second;
+  if (names_.empty()) return -1;
+  const SubName wanted{hash_of(label), 0, 0};
+  std::size_t i = names_.lower_bound(wanted, [](const SubName& a, const SubName& b) {
+    return std::tie(a.fanuc, a.hash) < std::tie(b.fanuc, b.hash);
+  });
+  for (; i < names_.size(); ++i) {
+    const SubName name = names_[i];
+    if (name.fanuc != 0 || name.hash != wanted.hash) break;
+    if (has_label(name.entry, label)) return name.entry;
+  }
+  return -1;
+}
+
+int FlowIndex::find_fanuc(std::string_view label, std::uint64_t after) {
+  const std::size_t behind = entries.lower_bound(
+      after, [](const FlowEntry& entry, std::uint64_t b) { return entry.begin <= b; });
+  const SubName wanted{hash_of(label), 1, static_cast<std::int32_t>(behind)};
+  const std::size_t first = names_.lower_bound(wanted, [](const SubName& a, const SubName& b) {
+    return std::tie(a.fanuc, a.hash, a.entry) < std::tie(b.fanuc, b.hash, b.entry);
+  });
+  const auto fits = [&](std::size_t i) {
+    const SubName name = names_[i];
+    return name.fanuc == 1 && name.hash == wanted.hash;
+  };
+  for (std::size_t i = first; i < names_.size() && fits(i); ++i)
+    if (has_label(names_[i].entry, label)) return names_[i].entry;
+  for (std::size_t i = first; i-- > 0 && fits(i);)
+    if (has_label(names_[i].entry, label)) return names_[i].entry;
+  return -1;
+}
+
+// ---- what belongs together -------------------------------------------------------------------
+
+void FlowIndex::problem(int at, FlowFault fault, std::string text) {
+  FlowEntry& entry = entries[static_cast<std::size_t>(at)];
+  if (entry.fault != FlowFault::none) return;
+  entry.fault = fault;
+  if (problems_.size() < max_problems) problems_.emplace(at, std::move(text));
+}
+
+void FlowIndex::connect(int at, const std::string& label) {
+  FlowEntry& entry = entries[static_cast<std::size_t>(at)];
+  entry.sub = sub_;
+  switch (entry.keyword) {
+    case Keyword::sub:
+      if (sub_ >= 0)
+        return problem(at, FlowFault::nesting,
+                       "a sub can't be defined inside another one; close that with endsub before");
+      end_scope();
+      name(at, label, false);
+      sub_ = at;
+      sub_label_ = label;
+      return;
+    case Keyword::endsub:
+      if (sub_ < 0 || sub_label_ != label)
+        return problem(at, FlowFault::missing, "there is no o" + label + " sub for this endsub");
+      end_scope();
+      entry.partner = sub_;
+      entries[static_cast<std::size_t>(sub_)].partner = at;
+      sub_ = -1;
+      return;
+    case Keyword::fanuc_sub:
+      return name(at, label, true);
+    case Keyword::if_:
+    case Keyword::do_:
+    case Keyword::repeat:
+      return open(at, label);
+    case Keyword::while_: {
+      const bool closes = std::any_of(open_.begin(), open_.end(), [&](const Open& other) {
+        return other.keyword == Keyword::do_ && other.label == label;
+      });
+      return closes ? close(at, label) : open(at, label);
+    }
+    case Keyword::endif:
+    case Keyword::endwhile:
+    case Keyword::endrepeat:
+      return close(at, label);
+    case Keyword::elseif:
+    case Keyword::else_:
+      return branch(at, label);
+    case Keyword::break_:
+    case Keyword::continue_:
+      return leave_loop(at, label);
+    default:
+      return;
+  }
 }
 
 // Tells the construct, and all branches of an if, that it has no end.
@@ -239,7 +323,7 @@ void FlowIndex::leave_open(int at, const std::string& text) {
     FlowEntry& entry = entries[static_cast<std::size_t>(at)];
     const bool is_branch = entry.keyword == Keyword::elseif || entry.keyword == Keyword::else_;
     const int before = is_branch ? entry.partner : -1;
-    problem(at, "label_missing", text);
+    problem(at, FlowFault::missing, text);
     entry.partner = -1;
     entry.next = -1;
     at = before;
@@ -248,109 +332,123 @@ void FlowIndex::leave_open(int at, const std::string& text) {
 
 // What is still open here has no end.
 void FlowIndex::end_scope() {
-  for (const int at : open_) {
-    const FlowEntry& entry = entries[static_cast<std::size_t>(at)];
-    if (entry.keyword == Keyword::while_do) {
-      problem(at, "label_missing",
-              "DO" + entry.label + " has no end in its program; add END" + entry.label);
+  for (const Open& open : open_) {
+    if (open.keyword == Keyword::while_do) {
+      problem(open.at, FlowFault::missing,
+              "DO" + open.label + " has no end in its program; add END" + open.label);
       continue;
     }
-    leave_open(at, std::string("this ") + text_of(entry.keyword) + " has no end; add o" +
-                       entry.label + " " + text_of(end_of(entry.keyword)));
+    leave_open(open.at, std::string("this ") + text_of(open.keyword) + " has no end; add o" +
+                            open.label + " " + text_of(end_of(open.keyword)));
   }
   open_.clear();
-  used_.clear();
+  ++scope_;
 }
 
-void FlowIndex::open(int at) {
-  const FlowEntry& entry = entries[static_cast<std::size_t>(at)];
+void FlowIndex::open(int at, const std::string& label) {
   if (open_.size() >= max_open)
-    return problem(at, "limit_reached",
+    return problem(at, FlowFault::limit,
                    "more than 1000 loops and branches inside each other; use subs");
-  if (!used_.insert(entry.label).second)
-    problem(at, "label_reused",
-            "the label o" + entry.label +
-                " has been used here before; give every block a label of its own");
-  open_.push_back(at);
+  if (!labels_.push_back({hash_of(label), scope_, at})) overfull_ = true;
+  open_.push_back({at, entries[static_cast<std::size_t>(at)].keyword, label});
 }
 
-void FlowIndex::close(int at) {
-  FlowEntry& entry = entries[static_cast<std::size_t>(at)];
-  while (!open_.empty()) {
-    const int top = open_.back();
-    FlowEntry& opener = entries[static_cast<std::size_t>(top)];
-    const bool fits = end_of(opener.keyword) == entry.keyword && opener.label == entry.label;
-    const bool fits_deeper = std::any_of(open_.begin(), open_.end(), [&](int other) {
-      const FlowEntry& o = entries[static_cast<std::size_t>(other)];
-      return end_of(o.keyword) == entry.keyword && o.label == entry.label;
-    });
-    if (!fits && !fits_deeper) break;
-    open_.pop_back();
-    if (!fits) {
-      leave_open(top, std::string("this ") + text_of(opener.keyword) + " is not closed before o" +
-                          entry.label + " " + text_of(entry.keyword) + "; add o" + opener.label +
-                          " " + text_of(end_of(opener.keyword)));
+// A label may open one block of its scope. This comes last, but is what the control tells first.
+void FlowIndex::find_reused_labels() {
+  const auto before = [](const LabelUse& a, const LabelUse& b) {
+    return std::tie(a.scope, a.hash, a.entry) < std::tie(b.scope, b.hash, b.entry);
+  };
+  if (!labels_.sort(before)) overfull_ = true;
+  std::vector<std::string> seen;  // of one hash: one, unless two labels share it
+  for (std::size_t i = 1; i < labels_.size() && !overfull_; ++i) {
+    const LabelUse last = labels_[i - 1], use = labels_[i];
+    if (last.scope != use.scope || last.hash != use.hash) {
+      seen.clear();
       continue;
     }
-    entry.partner = top;
-    if (opener.keyword == Keyword::elseif || opener.keyword == Keyword::else_) {
-      opener.next = at;
-      // All branches know the end: they are left through it.
-      for (int branch = opener.partner; branch >= 0;) {
-        FlowEntry& first = entries[static_cast<std::size_t>(branch)];
-        if (first.keyword == Keyword::if_) {
-          for (int b = branch; b != at; b = entries[static_cast<std::size_t>(b)].next)
-            entries[static_cast<std::size_t>(b)].partner = at;
-          break;
-        }
-        branch = first.partner;
-      }
-    } else {
-      opener.partner = at;
-      if (opener.keyword == Keyword::if_) opener.next = at;
+    if (seen.empty()) seen.push_back(line_of(last.entry).label);
+    const std::string label = line_of(use.entry).label;
+    if (std::find(seen.begin(), seen.end(), label) == seen.end()) {
+      seen.push_back(label);
+      continue;
     }
+    entries[static_cast<std::size_t>(use.entry)].fault = FlowFault::none;
+    problems_.erase(use.entry);
+    problem(
+        use.entry, FlowFault::reused,
+        "the label o" + label + " has been used here before; give every block a label of its own");
+  }
+  labels_ = {};
+}
+
+void FlowIndex::close(int at, const std::string& label) {
+  FlowEntry& entry = entries[static_cast<std::size_t>(at)];
+  const auto fits = [&](const Open& other) {
+    return end_of(other.keyword) == entry.keyword && other.label == label;
+  };
+  if (std::none_of(open_.begin(), open_.end(), fits))
+    return problem(at, FlowFault::missing,
+                   std::string("there is nothing open that o") + label + " " +
+                       text_of(entry.keyword) + " could close; check the label");
+  while (!fits(open_.back())) {
+    const Open& top = open_.back();
+    leave_open(top.at, std::string("this ") + text_of(top.keyword) + " is not closed before o" +
+                           label + " " + text_of(entry.keyword) + "; add o" + top.label + " " +
+                           text_of(end_of(top.keyword)));
+    open_.pop_back();
+  }
+  const int top = open_.back().at;
+  open_.pop_back();
+  entry.partner = top;
+  FlowEntry& opener = entries[static_cast<std::size_t>(top)];
+  const bool is_branch = opener.keyword == Keyword::elseif || opener.keyword == Keyword::else_;
+  if (is_branch || opener.keyword == Keyword::if_) opener.next = at;
+  if (!is_branch) {
+    opener.partner = at;
     return;
   }
-  problem(at, "label_missing",
-          std::string("there is nothing open that o") + entry.label + " " + text_of(entry.keyword) +
-              " could close; check the label");
+  // Each branch has known the one before it; now all know the end, through which they are left.
+  for (int branch = top; branch >= 0;) {
+    FlowEntry& one = entries[static_cast<std::size_t>(branch)];
+    branch = one.keyword == Keyword::if_ ? -1 : one.partner;
+    one.partner = at;
+  }
 }
 
 // elseif and else take the place of the branch before them on the stack of open constructs;
 // `partner` points back to that branch until the endif is found.
-void FlowIndex::branch(int at) {
+void FlowIndex::branch(int at, const std::string& label) {
   FlowEntry& entry = entries[static_cast<std::size_t>(at)];
   if (!open_.empty()) {
-    const int top = open_.back();
-    FlowEntry& before = entries[static_cast<std::size_t>(top)];
+    Open& before = open_.back();
     const bool is_branch = before.keyword == Keyword::if_ || before.keyword == Keyword::elseif;
-    if (is_branch && before.label == entry.label) {
-      before.next = at;
-      entry.partner = top;
-      open_.back() = at;
+    if (is_branch && before.label == label) {
+      entries[static_cast<std::size_t>(before.at)].next = at;
+      entry.partner = before.at;
+      before.at = at;
+      before.keyword = entry.keyword;
       return;
     }
   }
-  problem(at, "label_missing",
-          std::string("there is no open if with the label o") + entry.label + " for this " +
+  problem(at, FlowFault::missing,
+          std::string("there is no open if with the label o") + label + " for this " +
               text_of(entry.keyword));
 }
 
-void FlowIndex::leave_loop(int at) {
+void FlowIndex::leave_loop(int at, const std::string& label) {
   FlowEntry& entry = entries[static_cast<std::size_t>(at)];
-  for (auto open = open_.rbegin(); open != open_.rend(); ++open) {
-    const FlowEntry& other = entries[static_cast<std::size_t>(*open)];
-    if (other.label != entry.label) continue;
-    if (other.keyword == Keyword::while_ || other.keyword == Keyword::do_)
-      entry.partner = *open;
-    else
-      problem(at, "flow_syntax",
-              std::string(text_of(entry.keyword)) + " works in while and do loops only, not in " +
-                  text_of(other.keyword));
-    return;
-  }
-  problem(at, "label_missing",
-          std::string(text_of(entry.keyword)) + " needs the label of a loop that it is in");
+  const auto found = std::find_if(open_.rbegin(), open_.rend(),
+                                  [&](const Open& other) { return other.label == label; });
+  if (found == open_.rend())
+    return problem(
+        at, FlowFault::missing,
+        std::string(text_of(entry.keyword)) + " needs the label of a loop that it is in");
+  if (found->keyword == Keyword::while_ || found->keyword == Keyword::do_)
+    entry.partner = found->at;
+  else
+    problem(at, FlowFault::syntax,
+            std::string(text_of(entry.keyword)) + " works in while and do loops only, not in " +
+                text_of(found->keyword));
 }
 
 }  // namespace aircut::interp

@@ -10,6 +10,7 @@
 #include "base/text.h"
 #include "interp/codes/codes.h"
 #include "interp/impl.h"
+#include "interp/lexer.h"
 #include "interp/macro_expression.h"
 
 namespace aircut::interp {
@@ -27,9 +28,10 @@ FlowIndex& Interpreter::Impl::flow_of(ProgramFile& file) {
                                             file.percent, parameters_, table_);
   if (file.flow->overfull() && !statistics_.limit_reached) {
     report("limit_reached", {0, block_ ? block_->length : 0},
-           "the program has more than " + std::to_string(FlowIndex::max_numbered) +
-               " N blocks or " + std::to_string(FlowIndex::max_entries) +
-               " O-words (calls do not count), too many to look for a label among them; split it");
+           "the O-words and N blocks of the program are too many for the room that there is for "
+           "temporary files (" +
+               std::to_string(file.flow->entries.size()) +
+               " O-words were read); make room there, or split the program");
     statistics_.limit_reached = true;
     stop();
   }
@@ -47,7 +49,6 @@ void Interpreter::Impl::execute_oword(Block& block) {
   if (oword.entry < 0) oword.entry = flow_of(*frame.file).at(block.begin);
   const int at = oword.entry;
   if (at < 0) return;  // behind the end of a `%` program
-  if (&block != &scratch_) entry(at).block = &block;
   if (!entry_is_sound(at)) return;
   switch (oword.keyword) {
     case Keyword::fanuc_sub:
@@ -68,7 +69,7 @@ void Interpreter::Impl::execute_oword(Block& block) {
     case Keyword::elseif:
       return pass_branches(block, at);
     case Keyword::else_:
-      return jump_behind(entry(entry(at).partner));
+      return jump_behind(entry(at).partner);
     case Keyword::endif:
       return;
     case Keyword::while_:
@@ -90,8 +91,8 @@ void Interpreter::Impl::execute_oword(Block& block) {
 // Tells a structural problem. A construct without an end can't be gone through: the run stops.
 bool Interpreter::Impl::entry_is_sound(int at) {
   const FlowEntry& e = entry(at);
-  if (!e.problem_kind) return true;
-  report(e.problem_kind, e.place, e.problem);
+  if (e.fault == FlowFault::none) return true;
+  report_problem(at, flow().line_of(at).place);
   const bool opener = e.keyword == Keyword::if_ || e.keyword == Keyword::elseif ||
                       e.keyword == Keyword::else_ || e.keyword == Keyword::while_ ||
                       e.keyword == Keyword::do_ || e.keyword == Keyword::repeat ||
@@ -100,46 +101,70 @@ bool Interpreter::Impl::entry_is_sound(int at) {
   return opener && e.partner >= 0 && !done_;
 }
 
-void Interpreter::Impl::report_at(const FlowEntry& where) {
+// Tells what is wrong with an entry of this file, at a place of the block in execution.
+void Interpreter::Impl::report_problem(int at, Place place) {
+  FlowProblem problem = flow().problem_of(at);
+  report(problem.kind, place, std::move(problem.text));
+}
+
+// The same at the entry's own place.
+void Interpreter::Impl::report_at(int where) {
+  const FlowProblem problem = flow().problem_of(where);
+  const FlowLine line = flow().line_of(where);
   SourceSpan at;
   at.text = frames_.back().file->text;
-  at.begin = where.begin + where.place.begin;
-  at.length = where.place.length;
-  at.line = where.line;
-  if (!reported_.emplace(at.text, at.begin, where.problem_kind).second) return;
-  diagnostics_.error(where.problem_kind, at, where.problem);
+  at.begin = entry(where).begin + line.place.begin;
+  at.length = line.place.length;
+  at.line = entry(where).line;
+  if (!reported_.emplace(at.text, at.begin, problem.kind).second) return;
+  diagnostics_.error(problem.kind, at, problem.text);
   if (!options_.keep_going) stop();
 }
 
-void Interpreter::Impl::jump_to(const FlowEntry& target) {
+// The line of an entry when it is kept parsed. The block that leads there remembers it.
+Block* Interpreter::Impl::kept_block(int at) {
+  OWord& from = block_->oword;
+  if (from.jump_entry == at) return from.jump_block;
+  const auto& blocks = frames_.back().file->blocks;
+  const auto found = blocks.find(entry(at).begin);
+  if (found == blocks.end()) return nullptr;
+  from.jump_entry = at;
+  from.jump_block = found->second.get();
+  return from.jump_block;
+}
+
+void Interpreter::Impl::jump_to(int at) {
   Frame& frame = frames_.back();
+  const FlowEntry& target = entry(at);
   frame.at = target.begin;
   frame.line = target.line - 1;
   frame.last = nullptr;
-  frame.upcoming = target.block;
+  frame.upcoming = kept_block(at);
 }
 
-void Interpreter::Impl::jump_behind(const FlowEntry& target) {
+void Interpreter::Impl::jump_behind(int at) {
   Frame& frame = frames_.back();
-  frame.at = target.after;
-  frame.line = target.line;
+  const Block* kept = kept_block(at);
+  frame.at = kept ? kept->next_begin : flow().after(at);
+  frame.line = entry(at).line;
   frame.last = nullptr;
-  frame.upcoming = target.block ? target.block->following : nullptr;
+  frame.upcoming = kept ? kept->following : nullptr;
 }
 
-std::optional<double> Interpreter::Impl::condition(Block& block) {
+// The number in brackets; false when there is none, which is told.
+bool Interpreter::Impl::condition(Block& block, double& value) {
   std::optional<Fault> fault;
-  const auto value = evaluate(block.oword.arguments.front(), block.code, parameters_, fault);
-  if (!value) report(*fault);
-  return value;
+  const bool known = evaluate(block.oword.arguments.front(), block.code, parameters_, value, fault);
+  if (!known) report(*fault);
+  return known;
 }
 
 // ---- branches --------------------------------------------------------------------------------
 
 void Interpreter::Impl::branch_if(Block& block, int at) {
-  const auto value = condition(block);
-  if (!value) return jump_behind(entry(entry(at).partner));
-  if (*value == 0) take_branch(at);
+  double value = 0;
+  if (!condition(block, value)) return jump_behind(entry(at).partner);
+  if (value == 0) take_branch(at);
 }
 
 // Goes on with the branch behind `from`, whose condition was false.
@@ -147,25 +172,26 @@ void Interpreter::Impl::take_branch(int from) {
   while (true) {
     const int at = entry(from).next;
     const FlowEntry& branch = entry(at);
-    if (branch.keyword != Keyword::elseif) return jump_behind(branch);
-    jump_to(branch);
+    if (branch.keyword != Keyword::elseif) return jump_behind(at);
+    jump_to(at);
     Block* block = fetch();
-    const auto value = block ? condition(*block) : std::nullopt;
-    if (!value) return jump_behind(entry(branch.partner));
-    if (*value != 0) return;
+    double value = 0;
+    if (!block || !condition(*block, value)) return jump_behind(branch.partner);
+    if (value != 0) return;
     from = at;
   }
 }
 
 // A branch was done. The control evaluates the conditions of the others nevertheless.
 void Interpreter::Impl::pass_branches(Block& block, int at) {
-  condition(block);
+  double unused = 0;
+  condition(block, unused);
   for (int next = entry(at).next; entry(next).keyword == Keyword::elseif && !done_;
        next = entry(next).next) {
-    jump_to(entry(next));
-    if (Block* line = fetch()) condition(*line);
+    jump_to(next);
+    if (Block* line = fetch()) condition(*line, unused);
   }
-  jump_behind(entry(entry(at).partner));
+  jump_behind(entry(at).partner);
 }
 
 // ---- loops -----------------------------------------------------------------------------------
@@ -192,8 +218,8 @@ bool Interpreter::Impl::next_pass(Loop& loop) {
 void Interpreter::Impl::enter_while(Block& block, int at) {
   auto& loops = frames_.back().loops;
   const bool running = !loops.empty() && loops.back().entry == at;
-  const auto value = condition(block);
-  if (value && *value != 0) {
+  double value = 0;
+  if (condition(block, value) && value != 0) {
     if (!running) loops.push_back({at});
     return;
   }
@@ -203,29 +229,31 @@ void Interpreter::Impl::enter_while(Block& block, int at) {
   for (int inside = at + 1; inside < entry(at).partner; ++inside)
     if (entry(inside).keyword == Keyword::break_ && entry(inside).partner == at)
       break_pending_ = true;
-  jump_behind(entry(entry(at).partner));
+  jump_behind(entry(at).partner);
 }
 
 void Interpreter::Impl::do_while(Block& block, int at) {
   const int head = entry(at).partner;
   Loop* loop = loop_at(head);
   if (!loop) return;
-  const auto value = condition(block);
+  double value = 0;
+  const bool again = condition(block, value) && value != 0;
   const bool left = std::exchange(break_pending_, false);
-  if (left && value && *value != 0)
+  if (left && again)
     warn(Fault{"control_fault", block.oword.place,
                "the control runs this do loop once only, because a break has left a while loop "
                "before it; use while instead of do"});
-  if (left || !value || *value == 0) return frames_.back().loops.pop_back();
-  if (next_pass(*loop)) jump_behind(entry(head));
+  if (left || !again) return frames_.back().loops.pop_back();
+  if (next_pass(*loop)) jump_behind(head);
 }
 
 void Interpreter::Impl::enter_repeat(Block& block, int at) {
-  const auto value = condition(block);
-  const double rounded = value ? std::nearbyint(*value) : 0;  // halves to the even number
+  double value = 0;
+  const double rounded =
+      condition(block, value) ? std::nearbyint(value) : 0;  // halves to the even number
   if (rounded <= 0) {
     continue_pending_ = false;
-    return jump_behind(entry(entry(at).partner));
+    return jump_behind(entry(at).partner);
   }
   Loop loop;
   loop.entry = at;
@@ -239,7 +267,7 @@ void Interpreter::Impl::end_loop(Block& block, int at) {
   Loop* loop = loop_at(head);
   if (!loop) return;
   if (block.oword.keyword == Keyword::endwhile) {
-    if (next_pass(*loop)) jump_to(entry(head));
+    if (next_pass(*loop)) jump_to(head);
     return;
   }
   if (loop->pass >= loop->passes) {
@@ -248,15 +276,15 @@ void Interpreter::Impl::end_loop(Block& block, int at) {
     warn(Fault{"control_fault", block.oword.place,
                "the control runs this loop once more from its begin, because it has not forgotten "
                "the continue of a do loop before it; use while instead of do"});
-    return jump_to(entry(head));
+    return jump_to(head);
   }
-  if (next_pass(*loop)) jump_behind(entry(head));
+  if (next_pass(*loop)) jump_behind(head);
 }
 
 void Interpreter::Impl::leave_or_continue(Block& block, int at) {
   const int head = entry(at).partner;
   if (!loop_at(head)) return;
-  const FlowEntry& end = entry(entry(head).partner);
+  const int end = entry(head).partner;
   if (block.oword.keyword == Keyword::continue_) {
     if (entry(head).keyword == Keyword::do_) continue_pending_ = true;
     return jump_to(end);
@@ -266,16 +294,12 @@ void Interpreter::Impl::leave_or_continue(Block& block, int at) {
   jump_behind(end);
 }
 
-// The parameters that the loop's condition reads, with their last values.
-std::string Interpreter::Impl::tested_values(const Frame& frame, const FlowEntry& head,
+// The parameters that the condition in the line at `begin` reads, with their last values.
+std::string Interpreter::Impl::tested_values(const ProgramFile& file, std::uint64_t begin,
                                              Keyword only) {
-  const FlowEntry& place = head.keyword == Keyword::do_
-                               ? frame.file->flow->entries[static_cast<std::size_t>(head.partner)]
-                               : head;
   Block block;
-  const std::string_view text = frame.file->text->content();
-  std::string_view line = text.substr(place.begin, place.after - place.begin);
-  while (!line.empty() && (line.back() == '\n' || line.back() == '\r')) line.remove_suffix(1);
+  const std::string_view text = file.text->content();
+  const std::string_view line = text.substr(begin, find_line_end(text, begin).end - begin);
   block.clear();
   if (parse_line(line, parameters_, table_, block)) return {};
   if (only != Keyword::none && block.oword.keyword != only) return {};
@@ -302,16 +326,20 @@ std::string Interpreter::Impl::tested_values(const Frame& frame, const FlowEntry
 
 void Interpreter::Impl::loop_limit(const Frame& frame, const std::string& which) {
   const Loop& loop = frame.loops.back();
-  const FlowEntry& head = frame.file->flow->entries[static_cast<std::size_t>(loop.entry)];
+  FlowIndex& index = *frame.file->flow;
+  const FlowEntry head = index.entries[static_cast<std::size_t>(loop.entry)];
+  const Place place = index.line_of(loop.entry).place;
   SourceSpan at;
   at.text = frame.file->text;
-  at.begin = head.begin + head.place.begin;
-  at.length = head.place.length;
+  at.begin = head.begin + place.begin;
+  at.length = place.length;
   at.line = head.line;
   at.calls = frame.calls;
   std::string message = "the limit of " + which + " is reached in pass " +
                         std::to_string(loop.pass) + " of this loop";
-  const std::string values = tested_values(frame, head);
+  const int test = head.keyword == Keyword::do_ ? head.partner : loop.entry;
+  const std::string values =
+      tested_values(*frame.file, index.entries[static_cast<std::size_t>(test)].begin);
   if (!values.empty()) message += "; its condition sees " + values;
   message += "; does it ever end?";
   // A limit of ours, not of the control: the program is not wrong, it could not be checked.
@@ -320,9 +348,10 @@ void Interpreter::Impl::loop_limit(const Frame& frame, const std::string& which)
   stop();
 }
 
-std::shared_ptr<const CallFrame> Interpreter::Impl::current_calls() {
+// (In place: handing a shared_ptr back makes the processor wait for the memory.)
+void Interpreter::Impl::find_calls(std::shared_ptr<const CallFrame>& calls) {
   Frame& frame = frames_.back();
-  std::shared_ptr<const CallFrame> calls = frame.calls;
+  calls = frame.calls;
   for (Loop& loop : frame.loops) {
     if (loop.frame && loop.frame->pass != loop.pass && loop.frame.use_count() == 1) {
       // Nobody else has kept the pass before, so its frame serves for this one.
@@ -331,23 +360,25 @@ std::shared_ptr<const CallFrame> Interpreter::Impl::current_calls() {
       loop.frame->site.calls = std::move(calls);
     } else if (!loop.frame || loop.frame->pass != loop.pass) {
       const FlowEntry& head = entry(loop.entry);
+      if (loop.title.empty()) {
+        const FlowLine line = flow().line_of(loop.entry);
+        loop.place = line.place;
+        loop.title = head.keyword == Keyword::while_do
+                         ? "DO" + line.label
+                         : written_label(line.label) + ' ' + word_of(head.keyword);
+      }
       auto made = std::make_shared<CallFrame>();
       made->site.text = frame.file->text;
-      made->site.begin = head.begin + head.place.begin;
-      made->site.length = head.place.length;
+      made->site.begin = head.begin + loop.place.begin;
+      made->site.length = loop.place.length;
       made->site.line = head.line;
       made->site.calls = std::move(calls);
-      if (loop.title.empty())
-        loop.title = head.keyword == Keyword::while_do
-                         ? "DO" + head.label
-                         : written_label(head.label) + ' ' + word_of(head.keyword);
       made->what = loop.title;
       made->pass = loop.pass;
       loop.frame = std::move(made);
     }
     calls = loop.frame;
   }
-  return calls;
 }
 
 }  // namespace aircut::interp

@@ -36,6 +36,7 @@ struct Loop {
   std::uint64_t passes = 0;               ///< repeat: how many
   std::shared_ptr<CallFrame> frame = {};  ///< of a pass, made when somebody asks
   std::string title = {};                 ///< `o100 while`, with the first frame
+  Place place = {};                       ///< of its O-word, with the title
 };
 
 /// A cycle that waits for its contour (contour_reading.cpp).
@@ -156,16 +157,19 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void end_loop(Block& block, int at);
   void leave_or_continue(Block& block, int at);
   void do_while(Block& block, int at);
-  std::optional<double> condition(Block& block);
+  bool condition(Block& block, double& value);
+  bool is_true(Block& block);
   bool next_pass(Loop& loop);
   Loop* loop_at(int at);
   bool entry_is_sound(int at);
-  void report_at(const FlowEntry& where);
+  void report_at(int at);
+  void report_problem(int at, Place place);
   void loop_limit(const Frame& frame, const std::string& which);
-  std::string tested_values(const Frame& frame, const FlowEntry& head,
+  std::string tested_values(const ProgramFile& file, std::uint64_t begin,
                             Keyword only = Keyword::none);
-  void jump_to(const FlowEntry& entry);
-  void jump_behind(const FlowEntry& entry);
+  Block* kept_block(int at);
+  void jump_to(int at);
+  void jump_behind(int at);
   void call(Block& block);
   std::optional<std::string> label_of(const Block& block);
   std::optional<std::vector<double>> arguments_of(const Block& block);
@@ -199,7 +203,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void call_fanuc(const FlowRequest& request);
   bool enter_sub(ProgramFile& file, int at, const std::vector<double>* arguments, std::string what);
   void pass_sub(Block& block, int at);
-  void pass_value(const FlowEntry& end);
+  void pass_value(int end);
   void leave_sub(Block& block);
   void return_fanuc();
   void return_from_call();
@@ -215,10 +219,9 @@ class Interpreter::Impl final : public Site, private LiveValues {
   bool count_file(ProgramFile& file, Place place);
   BlockPlace first_line(const ProgramFile& file) const;
   ProgramFile& file_for(const SourceText& text);
-  FlowEntry& entry(int at) {
-    return frames_.back().file->flow->entries[static_cast<std::size_t>(at)];
-  }
-  std::shared_ptr<const CallFrame> current_calls();
+  FlowIndex& flow() { return *frames_.back().file->flow; }
+  FlowEntry& entry(int at) { return flow().entries[static_cast<std::size_t>(at)]; }
+  void find_calls(std::shared_ptr<const CallFrame>& calls);
 
   // ---- contours of turning cycles (contour_reading.cpp)
   void start_contour(const FlowRequest& request, const CodeRule& rule);
@@ -258,7 +261,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   ModalState state_;
   ModalState next_;
   Session session_;
-  std::vector<canon::Command> queue_;
+  CommandQueue queue_;
   std::size_t head_ = 0;
   std::vector<Frame> frames_;
   std::map<const SourceText*, std::unique_ptr<ProgramFile>> files_;
@@ -278,7 +281,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   bool continue_pending_ = false;  ///< a do loop was continued: the next repeat runs twice
   bool break_pending_ = false;     ///< a while loop was left by break: the next do loop runs once
   std::uint64_t idle_blocks_ = 0;
-  std::size_t cached_blocks_ = 0;
+  std::size_t kept_bytes_ = 0;            ///< of lines that are kept parsed
   std::vector<ModalMacro> modal_macros_;  ///< in force, the last G66 last
   Block reduced_;                         ///< a block without its vacant words
   Block handed_;                          ///< a block under G66.1: its modal codes, its arguments
@@ -289,6 +292,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   std::vector<int> kept_numbers_;  ///< that the parameter file had
   std::set<std::tuple<const SourceText*, std::uint64_t, std::string>> reported_;
   Statistics statistics_;
+  std::uint32_t other_axes_ =
+      0;  ///< letters of axes with rules of their own, or that are not there
 };
 
 /// The label as a program writes it: `100` → o100, `pocket` → o<pocket>.
@@ -311,7 +316,7 @@ class BlockExecutor {
   bool move(const CodeRule& rule);
 
  private:
-  std::optional<double> value_of(const Value& value);
+  bool value_of(const Value& value, double& number);
   bool evaluate();
   bool evaluate_macro_b();
   bool settings();

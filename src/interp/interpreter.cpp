@@ -14,13 +14,20 @@
 namespace aircut::interp {
 namespace {
 
-constexpr std::size_t max_cached_blocks = 50'000;  // lines of loops and subs kept parsed
+constexpr std::size_t most_kept = 24 << 20;  // bytes of the lines of loops and subs kept parsed
 constexpr std::size_t max_reported = 10'000;
 
 bool is_percent(std::string_view line) {
   const std::size_t first = line.find_first_not_of(" \t");
   return first != std::string_view::npos && line[first] == '%' &&
          line.find_first_not_of(" \t", first + 1) == std::string_view::npos;
+}
+
+// What a parsed line takes, about.
+std::size_t bytes_of(const Block& block) {
+  return sizeof(Block) + block.words.capacity() * sizeof(Word) +
+         block.code.capacity() * sizeof(Instruction) + block.settings.capacity() * sizeof(Setting) +
+         block.oword.arguments.capacity() * (sizeof(Value) + sizeof(Place)) + 64;
 }
 
 // Motion or dwell: the alternatives that stand first in canon::Action.
@@ -49,7 +56,7 @@ std::vector<Interpreter::CodeCount> Interpreter::code_counts() const {
 
 canon::Command* Interpreter::Impl::next() {
   while (head_ >= queue_.size()) {
-    queue_.clear();
+    queue_.shorten(0);
     head_ = 0;
     if (done_) return nullptr;
     step();
@@ -99,7 +106,7 @@ Block* Interpreter::Impl::fetch() {
     span_valid_ = false;
     return block;
   }
-  const bool keep = repeated && cached_blocks_ < max_cached_blocks;
+  const bool keep = repeated && kept_bytes_ < most_kept;
   std::unique_ptr<Block> own = keep ? std::make_unique<Block>() : nullptr;
   block = keep ? own.get() : &scratch_;
   parse_into(frame, *block);
@@ -136,7 +143,7 @@ Block* Interpreter::Impl::fetch() {
     frame.last = nullptr;
     return block;
   }
-  ++cached_blocks_;
+  kept_bytes_ += bytes_of(*block);
   if (frame.last && frame.last->next_begin == block->begin) frame.last->following = block;
   frame.last = block;
   frame.file->blocks.emplace(block->begin, std::move(own));
@@ -231,14 +238,8 @@ const CodeRule* Interpreter::Impl::plain_motion(const Block& block) const {
       s.comp.leaving || s.nurbs_points > 0 || s.turn_is_fresh || s.turn_was_left ||
       s.length_suspended || s.data_setting || s.polar.on || session_.held)
     return nullptr;
-  const CodeRule* rule = nullptr;
-  for (const Word& word : block.words) {
-    if (word.rule) rule = word.rule;
-    if (!(letter_bit(word.letter) & axis_letters)) continue;
-    const Axis axis = *axis_of_letter(word.letter);
-    if (!options_.axes.empty() && !options_.axes.has(axis)) return nullptr;
-    if (options_.wrapped.has(axis) || options_.indexers.has(axis)) return nullptr;
-  }
+  if (block.letters & other_axes_) return nullptr;
+  const CodeRule* rule = block.plain_rule;
   if (!rule) {
     const bool arc = s.motion == 20 || s.motion == 30;
     const std::uint32_t enough = axis_letters | (arc ? centre_letters : 0);
@@ -267,7 +268,7 @@ bool Interpreter::Impl::plain_move(Block& block) {
     return true;
   }
   state_.feed = feed;
-  queue_.resize(first);
+  queue_.shorten(first);
   return false;
 }
 
@@ -284,9 +285,7 @@ bool Interpreter::Impl::plain_settings(const Block& block) {
     const Setting& setting = block.settings[i];
     if (setting.plain == 0 && (setting.name < 0 || parameters_.read_only_name(setting.name)))
       return false;
-    const auto value = evaluate(setting.value, block.code, parameters_, fault);
-    if (!value) return false;
-    values[i] = *value;
+    if (!evaluate(setting.value, block.code, parameters_, values[i], fault)) return false;
   }
   for (std::size_t i = 0; i < block.settings.size(); ++i) {
     const Setting& setting = block.settings[i];
@@ -339,7 +338,7 @@ void Interpreter::Impl::execute_words(Block& block, const SuspendedBlock* rest) 
   if (handed && run.ok() && take_block_as_arguments(run))
     run.flow.kind = FlowRequest::Kind::block_call;
   if (!run.ok()) {
-    queue_.resize(first);
+    queue_.shorten(first);
     parameters_.roll_back();
     run.roll_back_tools();
     if (comp_before) session_.compensator = std::move(*comp_before);
@@ -482,7 +481,7 @@ const SourceSpan& Interpreter::Impl::span() {
     span_.length = block_ ? block_->length : 0;
     span_.line = block_ ? block_->line : 0;
     span_.calls.reset();
-    span_.calls = current_calls();
+    find_calls(span_.calls);
     span_valid_ = true;
   }
   return span_;

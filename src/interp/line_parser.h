@@ -45,6 +45,7 @@ class LineParser {
     return fail(kind, begin, in_.length_since(begin), std::move(message));
   }
 
+  void plain_words();
   bool item();
   bool comment();
   bool semicolon();
@@ -108,7 +109,8 @@ class LineParser {
   void emit(Op op, Place place, double number = 0, std::int32_t id = 0) {
     out_.code.push_back({op, Right::stack, id, number, place});
   }
-  void emit_binary(Op op, Place place);
+  void emit_unary(Op op, Place place);
+  void emit_binary(Op op, Place place, std::size_t left, std::size_t right);
 
   Cursor in_;
   Parameters& parameters_;

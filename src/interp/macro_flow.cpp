@@ -11,11 +11,11 @@
 #include "interp/macro_output.h"
 
 namespace aircut::interp {
-namespace {
 
-bool is_true(std::optional<double> value) { return value && !is_vacant(*value) && *value != 0; }
-
-}  // namespace
+bool Interpreter::Impl::is_true(Block& block) {
+  double value = 0;
+  return condition(block, value) && !is_vacant(value) && value != 0;
+}
 
 void Interpreter::Impl::execute_macro(Block& block) {
   OWord& statement = block.oword;
@@ -24,7 +24,7 @@ void Interpreter::Impl::execute_macro(Block& block) {
     case Keyword::program:
       return enter_program(block);
     case Keyword::if_goto:
-      if (!is_true(condition(block))) return;
+      if (!is_true(block)) return;
       [[fallthrough]];
     case Keyword::goto_: {
       const std::size_t argument = statement.arguments.size() - 1;
@@ -34,7 +34,7 @@ void Interpreter::Impl::execute_macro(Block& block) {
     }
     case Keyword::if_then:
     case Keyword::if_m99:
-      if (is_true(condition(block))) execute_words(block);
+      if (is_true(block)) execute_words(block);
       return;
     case Keyword::output:
       return write_out(block);
@@ -47,10 +47,9 @@ void Interpreter::Impl::execute_macro(Block& block) {
   if (statement.entry < 0) statement.entry = flow_of(*frames_.back().file).at(block.begin);
   const int at = statement.entry;
   if (at < 0) return;  // behind the `%` at the end
-  if (&block != &scratch_) entry(at).block = &block;
   const FlowEntry& e = entry(at);
-  if (e.problem_kind) {
-    report(e.problem_kind, e.place, e.problem);
+  if (e.fault != FlowFault::none) {
+    report_problem(at, statement.place);
     if (e.partner < 0) {
       if (statement.keyword == Keyword::while_do) stop();
       return;
@@ -73,18 +72,18 @@ void Interpreter::Impl::enter_program(Block& block) {
 void Interpreter::Impl::enter_do(Block& block, int at) {
   auto& loops = frames_.back().loops;
   const bool running = !loops.empty() && loops.back().entry == at;
-  if (block.oword.arguments.empty() || is_true(condition(block))) {
+  if (block.oword.arguments.empty() || is_true(block)) {
     if (!running) loops.push_back({at});
     return;
   }
   if (running) loops.pop_back();
-  jump_behind(entry(entry(at).partner));
+  jump_behind(entry(at).partner);
 }
 
 void Interpreter::Impl::end_do(int at) {
   const int head = entry(at).partner;
   Loop* loop = loop_at(head);
-  if (loop && next_pass(*loop)) jump_to(entry(head));
+  if (loop && next_pass(*loop)) jump_to(head);
 }
 
 // ---- jumps -----------------------------------------------------------------------------------
@@ -106,7 +105,7 @@ std::optional<std::int64_t> Interpreter::Impl::block_number_of(const Block& bloc
 
 bool Interpreter::Impl::jump_to_block(std::int64_t number, Place place) {
   Frame& frame = frames_.back();
-  const NumberedBlock* target = flow_of(*frame.file).find_block(number, block_->begin);
+  const auto target = flow_of(*frame.file).find_block(number, block_->begin);
   if (!target) {
     report("label_missing", place,
            "there is no block N" + std::to_string(number) + " in this program");
@@ -152,8 +151,8 @@ bool Interpreter::Impl::may_jump_into(const NumberedBlock& target, Place place) 
                                      [&](const Loop& other) { return other.entry == loop; });
     if (running) continue;
     report("flow_syntax", place,
-           "N" + std::to_string(target.number) + " is inside the loop DO" + entry(loop).label +
-               ", which a jump can't enter; jump to its WHILE");
+           "N" + std::to_string(target.number) + " is inside the loop DO" +
+               flow().line_of(loop).label + ", which a jump can't enter; jump to its WHILE");
     return false;
   }
   return true;
@@ -170,17 +169,13 @@ void Interpreter::Impl::goto_limit(const Frame& frame, const std::string& which)
   at.calls = frame.calls;
   std::string message = "the limit of " + which + " is reached after " +
                         std::to_string(jump.count) + " jumps back from here";
-  FlowEntry line;
   std::string values;
   const std::string_view text = frame.file->text->content();
   for (std::uint64_t begin = jump.to; begin <= jump.from.begin && values.size() < 200;) {
-    const LineExtent extent = find_line_end(text, begin);
-    line.begin = begin;
-    line.after = extent.next;
-    const std::string more = tested_values(frame, line, Keyword::if_goto);
+    const std::string more = tested_values(*frame.file, begin, Keyword::if_goto);
     if (!more.empty() && values.find(more) == std::string::npos)
       values += (values.empty() ? "" : ", ") + more;
-    begin = extent.next;
+    begin = find_line_end(text, begin).next;
   }
   if (!values.empty()) message += "; the conditions in between see " + values;
   message += "; does it ever end?";
@@ -190,7 +185,7 @@ void Interpreter::Impl::goto_limit(const Frame& frame, const std::string& which)
 }
 
 std::optional<BlockPlace> Interpreter::Impl::find_block(std::int64_t number) {
-  const NumberedBlock* found = flow_of(*frames_.back().file).find_block(number, block_->begin);
+  const auto found = flow_of(*frames_.back().file).find_block(number, block_->begin);
   if (!found) return std::nullopt;
   return found->place;
 }

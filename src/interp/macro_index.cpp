@@ -80,25 +80,15 @@ bool may_be_entry(char first) {
   return first == 'o' || first == ':' || first == 'w' || first == 'd' || first == 'e';
 }
 
-auto key(const NumberedBlock& block) {
-  return std::tuple(block.program, block.number, block.place.begin);
-}
-
 }  // namespace
 
-void FlowIndex::read_macro_b(const SourceText& source, std::uint64_t begin, bool block_delete,
-                             bool stops_at_percent, Parameters& parameters,
-                             const CodeTable& table) {
+void FlowIndex::read_macro_b(std::uint64_t begin, bool block_delete, bool stops_at_percent) {
   Block block;
-  const std::string_view text = source.content();
-  Reading reading(source);
+  const std::string_view text = source_.content();
+  Reading reading(source_);
   std::uint64_t line_number = 0;
   bool first = true;
-  while (begin < text.size()) {
-    if (entries.size() >= max_entries || numbered_.size() >= max_numbered) {
-      overfull_ = true;
-      break;
-    }
+  while (begin < text.size() && !overfull_) {
     const LineExtent extent = find_line_end(text, begin, &reading);
     const std::string_view line = text.substr(begin, extent.end - begin);
     const std::uint64_t at = std::exchange(begin, extent.next);
@@ -109,92 +99,98 @@ void FlowIndex::read_macro_b(const SourceText& source, std::uint64_t begin, bool
     FlowEntry entry;
     if (may_be_entry(seen.first)) {
       block.clear();
-      parse_line(line, parameters, table, block);
+      parse_line(line, parameters_, table_, block);
       entry.keyword = block.oword.keyword;
     }
     const bool is_header = entry.keyword == Keyword::program;
-    if (seen.number >= 0 && !is_header)
-      numbered_.push_back({static_cast<std::int32_t>(std::min<std::int64_t>(seen.number, 1 << 30)),
-                           sub_,
-                           open_.empty() ? -1 : open_.back(),
-                           {at, extent.next, line_number}});
+    if (seen.number >= 0 && !is_header) {
+      const auto number = static_cast<std::int32_t>(std::min<std::int64_t>(seen.number, 1 << 30));
+      if (!numbered_.push_back(
+              {at, line_number, number, sub_, open_.empty() ? -1 : open_.back().at}))
+        overfull_ = true;
+    }
     if (!is_header && entry.keyword != Keyword::while_do && entry.keyword != Keyword::end_)
       continue;
     entry.begin = at;
-    entry.after = extent.next;
     entry.line = line_number;
-    entry.label = block.oword.label;
-    entry.place = block.oword.place;
-    entries.push_back(std::move(entry));
-    connect_macro_b(static_cast<int>(entries.size()) - 1);
+    if (!add(entry)) break;
+    connect_macro_b(static_cast<int>(entries.size()) - 1, block.oword.label);
   }
   end_scope();
-  std::sort(numbered_.begin(), numbered_.end(),
-            [](const NumberedBlock& a, const NumberedBlock& b) { return key(a) < key(b); });
+  const bool sorted = numbered_.sort([](const Numbered& a, const Numbered& b) {
+    return std::tie(a.program, a.number, a.begin) < std::tie(b.program, b.number, b.begin);
+  });
+  if (!sorted) overfull_ = true;
 }
 
-void FlowIndex::connect_macro_b(int at) {
+void FlowIndex::connect_macro_b(int at, const std::string& label) {
   FlowEntry& entry = entries[static_cast<std::size_t>(at)];
   if (entry.keyword == Keyword::program) {
     end_scope();
     sub_ = at;
     entry.sub = at;
-    subs_.emplace(entry.label, at);
+    name(at, label, false);
     return;
   }
   entry.sub = sub_;
-  if (entry.keyword == Keyword::end_) return close_loop(at);
-  const bool open = std::any_of(open_.begin(), open_.end(), [&](int other) {
-    return entries[static_cast<std::size_t>(other)].label == entry.label;
-  });
+  if (entry.keyword == Keyword::end_) return close_loop(at, label);
+  const bool open = std::any_of(open_.begin(), open_.end(),
+                                [&](const Open& other) { return other.label == label; });
   if (open)
-    problem(at, "flow_nesting",
-            "DO" + entry.label + " inside DO" + entry.label +
-                "; loops inside each other need different numbers");
-  entry.next = open_.empty() ? -1 : open_.back();
-  open_.push_back(at);
+    problem(
+        at, FlowFault::nesting,
+        "DO" + label + " inside DO" + label + "; loops inside each other need different numbers");
+  entry.next = open_.empty() ? -1 : open_.back().at;
+  if (open_.size() >= max_open)
+    return problem(at, FlowFault::limit, "more than 1000 loops inside each other");
+  open_.push_back({at, entry.keyword, label});
 }
 
-void FlowIndex::close_loop(int at) {
-  FlowEntry& end = entries[static_cast<std::size_t>(at)];
-  const auto fits = [&](int other) {
-    return entries[static_cast<std::size_t>(other)].label == end.label;
-  };
+void FlowIndex::close_loop(int at, const std::string& label) {
+  const auto fits = [&](const Open& other) { return other.label == label; };
   if (std::none_of(open_.begin(), open_.end(), fits))
-    return problem(at, "label_missing", "there is no DO" + end.label + " before this END");
+    return problem(at, FlowFault::missing, "there is no DO" + label + " before this END");
   while (!fits(open_.back())) {
-    const FlowEntry& crossed = entries[static_cast<std::size_t>(open_.back())];
-    problem(open_.back(), "flow_nesting",
-            "DO" + crossed.label + " is not closed before END" + end.label +
+    const Open& crossed = open_.back();
+    problem(crossed.at, FlowFault::nesting,
+            "DO" + crossed.label + " is not closed before END" + label +
                 "; loops can't cross each other");
     open_.pop_back();
   }
-  end.partner = open_.back();
-  entries[static_cast<std::size_t>(open_.back())].partner = at;
+  entries[static_cast<std::size_t>(at)].partner = open_.back().at;
+  entries[static_cast<std::size_t>(open_.back().at)].partner = at;
   open_.pop_back();
 }
 
-int FlowIndex::program_at(std::uint64_t begin) const {
-  const auto behind =
-      std::upper_bound(entries.begin(), entries.end(), begin,
-                       [](std::uint64_t b, const FlowEntry& entry) { return b < entry.begin; });
-  return behind == entries.begin() ? -1 : std::prev(behind)->sub;
+int FlowIndex::program_at(std::uint64_t begin) {
+  const std::size_t behind = entries.lower_bound(
+      begin, [](const FlowEntry& entry, std::uint64_t b) { return entry.begin <= b; });
+  return behind == 0 ? -1 : entries[behind - 1].sub;
 }
 
-const NumberedBlock* FlowIndex::find_block(std::int64_t number, std::uint64_t from) const {
-  if (number < 0 || number > (1 << 30)) return nullptr;
+// A loop made of jumps asks for the same ones again and again.
+std::optional<NumberedBlock> FlowIndex::find_block(std::int64_t number, std::uint64_t from) {
+  if (number < 0 || number > (1 << 30)) return std::nullopt;
+  Jump& jump = jumps_[(from * 31 + static_cast<std::uint64_t>(number)) % jumps_.size()];
+  if (jump.number != number || jump.from != from) jump = {number, from, search(number, from)};
+  return jump.found;
+}
+
+std::optional<NumberedBlock> FlowIndex::search(std::int64_t number, std::uint64_t from) {
   const int program = program_at(from);
   const auto wanted = static_cast<std::int32_t>(number);
-  const auto at = [&](std::uint64_t begin) {
-    const auto found = std::lower_bound(
-        numbered_.begin(), numbered_.end(), std::tuple(program, wanted, begin),
-        [](const NumberedBlock& block, const auto& value) { return key(block) < value; });
-    const bool fits =
-        found != numbered_.end() && found->program == program && found->number == wanted;
-    return fits ? &*found : nullptr;
-  };
-  if (const NumberedBlock* behind = at(from + 1)) return behind;
-  return at(0);
+  for (const std::uint64_t begin : {from + 1, std::uint64_t{0}}) {
+    const std::size_t at = numbered_.lower_bound(
+        std::tuple(program, wanted, begin), [](const Numbered& block, const auto& value) {
+          return std::tie(block.program, block.number, block.begin) < value;
+        });
+    if (at == numbered_.size()) continue;
+    const Numbered block = numbered_[at];
+    if (block.program != program || block.number != wanted) continue;
+    const LineExtent extent = find_line_end(source_.content(), block.begin);
+    return NumberedBlock{wanted, block.loop, {block.begin, extent.next, block.line}};
+  }
+  return std::nullopt;
 }
 
 }  // namespace aircut::interp

@@ -57,8 +57,7 @@ ProgramFile* Interpreter::Impl::open_program_file(std::int64_t number, Place pla
         if (!count_file(file, place)) return nullptr;
         entry = flow_of(file).find_program(number);
         if (entry >= 0) return &file;
-        if (flow_of(file).entries.empty() ||
-            flow_of(file).entries.front().keyword != Keyword::program) {
+        if (flow_of(file).entries.empty() || flow_of(file).entries[0].keyword != Keyword::program) {
           file.whole_program = number;
           return &file;
         }
@@ -89,7 +88,7 @@ bool Interpreter::Impl::push_program(const FlowRequest& request, std::string wha
   frame.locals = request.locals;
   if (header >= 0) {
     const FlowEntry& e = file->flow->entries[static_cast<std::size_t>(header)];
-    frame.start = {e.begin, e.after, e.line};
+    frame.start = {e.begin, file->flow->after(header), e.line};
     frame.header_seen = true;
   } else {
     frame.start = first_line(*file);
@@ -216,7 +215,7 @@ void Interpreter::Impl::call_local(const FlowRequest& request) {
   if (request.repeats == 0) return;
   Frame frame;
   frame.file = frames_.back().file;
-  const NumberedBlock* target = flow_of(*frame.file).find_block(request.label, block_->begin);
+  const auto target = flow_of(*frame.file).find_block(request.label, block_->begin);
   if (!target)
     return report("label_missing", request.place,
                   "there is no block N" + std::to_string(request.label) + " in this program");
@@ -257,7 +256,7 @@ void Interpreter::Impl::return_macro_b(const FlowRequest& request) {
   return_from_call();
   if (!request.block) return;
   Frame& caller = frames_.back();
-  const NumberedBlock* target = flow_of(*caller.file).find_block(*request.block, call_site);
+  const auto target = flow_of(*caller.file).find_block(*request.block, call_site);
   if (!target) {
     diagnostics_.error(
         "label_missing", at,

@@ -29,9 +29,28 @@ std::optional<Fault> LineParser::parse() {
     oword();
     return fault_;
   }
-  while (!in_.at_end())
+  plain_words();
+  while (!fault_ && !in_.at_end())
     if (!item()) break;
   return fault_;
+}
+
+// What programs mostly consist of, a letter and a number as it is mostly written, in one go. It
+// stops in front of anything else.
+void LineParser::plain_words() {
+  for (char c = in_.peek(); is_letter(c) && c != 'n' && c != 'o'; c = in_.peek()) {
+    const std::uint32_t begin = in_.position();
+    in_.advance();
+    double number = 0;
+    std::uint32_t end = 0;
+    if (!in_.read_plain_number(number, end)) return in_.go_to(begin);
+    Word& word = out_.words.emplace_back();
+    word.letter = static_cast<char>(c - 32);
+    word.place = {begin, end - begin};
+    word.text.number = number;
+    if (add_word(word)) continue;
+    return out_.words.pop_back();
+  }
 }
 
 bool LineParser::line_number() {
@@ -130,6 +149,7 @@ bool LineParser::add_word(Word& word) {
     if (word.text.constant()) word.rule = table_.find(word.letter, word.text.number);
     plain = word.rule && word.letter == 'G' && word.rule->code <= 30 && word.rule->code % 10 == 0 &&
             g_groups_ == 1;
+    out_.plain_rule = word.rule;
   } else {
     auto& slot = out_.slot[static_cast<std::size_t>(letter_index(word.letter))];
     if (slot >= 0) return second_word(word);
@@ -193,6 +213,7 @@ void Block::clear() {
   empty = true;
   has_rules = false;
   plain_move = true;
+  plain_rule = nullptr;
   letters = 0;
   has_expressions = false;
   words.clear();

@@ -10,6 +10,7 @@
 
 #include "interp/block.h"
 #include "interp/code_table.h"
+#include "interp/command_queue.h"
 #include "interp/compensation.h"
 #include "interp/held_move.h"
 #include "interp/interp.h"
@@ -91,8 +92,7 @@ class ContourReader;
 
 class BlockRun {
  public:
-  BlockRun(Session& s, const Block& b, ModalState& next, Site& site,
-           std::vector<canon::Command>& out)
+  BlockRun(Session& s, const Block& b, ModalState& next, Site& site, CommandQueue& out)
       : session(s), block(b), state(next), plane_before(next.plane), site_(site), out_(out) {}
 
   Session& session;
@@ -193,8 +193,11 @@ class BlockRun {
   /// Appends it in front of anything that is held back.
   template <class A>
   void emit_now(A action, std::string expanded = {}) {
-    canon::Command& command = out_.emplace_back();  // filled in where it stays
-    command.action.template emplace<A>(std::move(action));
+    canon::Command& command = out_.add();  // filled in where it stays
+    if (A* same = std::get_if<A>(&command.action))
+      *same = std::move(action);
+    else
+      command.action.template emplace<A>(std::move(action));
     command.span = span();
     command.block = block_of_command();
     if (!expanded.empty()) command.expanded = std::move(expanded);
@@ -240,7 +243,7 @@ class BlockRun {
   }
 
   Site& site_;
-  std::vector<canon::Command>& out_;
+  CommandQueue& out_;
   std::optional<Fault> fault_;
   std::vector<Fault> warnings_;
   std::vector<Fault> infos_;

@@ -42,6 +42,10 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
   frames_.emplace_back();
   frames_.back().file = &file_for(program);
   session_.remaps.fill(options_.remaps, table_);
+  for (const Axis axis : all_axes)
+    if ((!options_.axes.empty() && !options_.axes.has(axis)) || options_.wrapped.has(axis) ||
+        options_.indexers.has(axis))
+      other_axes_ |= letter_bit(letter(axis));
   start(file);
 }
 

@@ -59,23 +59,30 @@ void Interpreter::Impl::pass_sub(Block& block, int at) {
            "with M2 before this line");
   sub.passed = true;
   if (block.oword.computed)
-    if (auto label = label_of(block)) flow_of(*frames_.back().file).name_sub(at, std::move(*label));
+    if (const auto label = label_of(block); label && !flow().name_sub(at, *label)) {
+      statistics_.limit_reached = true;
+      report("limit_reached", block.oword.place,
+             "more than " + std::to_string(FlowIndex::max_computed) +
+                 " labels of subs that are expressions");
+      return stop();
+    }
   // A sub inside this one would come to light only in a call.
   for (int inside = at + 1; inside < sub.partner; ++inside) {
     const FlowEntry& other = entry(inside);
-    if (other.keyword == Keyword::sub && other.problem_kind) report_at(other);
+    if (other.keyword == Keyword::sub && other.fault != FlowFault::none) report_at(inside);
   }
+  const std::string own = flow().line_of(at).label;
   for (int inside = at + 1; inside <= sub.partner; ++inside) {
     const FlowEntry& other = entry(inside);
     const bool ends = other.keyword == Keyword::endsub || other.keyword == Keyword::return_;
-    if (ends && other.label == sub.label) pass_value(other);
+    if (ends && flow().line_of(inside).label == own) pass_value(inside);
   }
-  jump_behind(entry(sub.partner));
+  jump_behind(sub.partner);
 }
 
 // The control reads the ends of a sub while it passes the definition: their values count as
 // returned, with 0 for names that the sub would have set.
-void Interpreter::Impl::pass_value(const FlowEntry& end) {
+void Interpreter::Impl::pass_value(int end) {
   jump_to(end);
   Block* block = fetch();
   if (!block) return;
@@ -209,9 +216,9 @@ void Interpreter::Impl::call(Block& block) {
   if (!file) return;
   const int at = file->flow->find_sub(*label);
   FlowEntry& sub = file->flow->entries[static_cast<std::size_t>(at)];
-  if (sub.problem_kind) {
-    report(sub.problem_kind, block.oword.place, sub.problem);
-    return;
+  if (sub.fault != FlowFault::none) {
+    FlowProblem problem = file->flow->problem_of(at);
+    return report(problem.kind, block.oword.place, std::move(problem.text));
   }
   if (!sub.passed && file == frames_.front().file) sub.called_ahead = true;
   sub.passed = true;
@@ -227,7 +234,7 @@ bool Interpreter::Impl::enter_sub(ProgramFile& file, int at, const std::vector<d
   const FlowEntry& sub = file.flow->entries[static_cast<std::size_t>(at)];
   Frame frame;
   frame.file = &file;
-  frame.start = {sub.begin, sub.after, sub.line};
+  frame.start = {sub.begin, file.flow->after(at), sub.line};
   frame.sub = at;
   return push_frame(std::move(frame), std::move(what), arguments);
 }
@@ -265,10 +272,9 @@ void Interpreter::Impl::leave_sub(Block& block) {
                               : "return and endsub work inside a sub only");
   }
   // The value may be made of the last one, so that is forgotten only now.
-  std::optional<double> value;
-  if (!block.oword.arguments.empty()) value = condition(block);
-  value_ = value.value_or(0);
-  value_returned_ = value.has_value();
+  double value = 0;
+  value_returned_ = !block.oword.arguments.empty() && condition(block, value);
+  value_ = value_returned_ ? value : 0;
   return_from_call();
 }
 
@@ -317,7 +323,7 @@ void Interpreter::Impl::return_fanuc() {
   if (frame.repeats > 1) {
     --frame.repeats;
     frame.loops.clear();
-    return jump_behind(entry(frame.sub));
+    return jump_behind(frame.sub);
   }
   return_from_call();
 }

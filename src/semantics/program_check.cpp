@@ -60,9 +60,8 @@ bool is_feed(const Action& action) {
          std::holds_alternative<canon::SyncFeed>(action);
 }
 
-SourceSpan without_calls(const SourceSpan& span) {
-  return {span.text, span.begin, span.length, span.line};
-}
+// The moves of which nothing else is to be said are most of a program.
+bool says_more(const Action& action) { return action.index() > Action(canon::ArcFeed{}).index(); }
 
 // Does a line have one of these words? Expressions for codes are rare enough to count as no.
 bool has_code(const SourceSpan& line, char letter, std::initializer_list<double> numbers) {
@@ -190,10 +189,16 @@ ProgramCheck::~ProgramCheck() = default;
 void ProgramCheck::see(const Command& command) {
   State& s = *state_;
   s.read_refusals();
-  if (command.span) s.last = without_calls(command.span);
+  if (command.span) {
+    s.last.text = command.span.text;
+    s.last.begin = command.span.begin;
+    s.last.length = command.span.length;
+    s.last.line = command.span.line;
+  }
   if (canon::is_motion(command.action)) s.before_motion();
   if (is_feed(command.action)) s.before_cut(command);
-  std::visit([&](const auto& action) { s.on(action, command); }, command.action);
+  if (says_more(command.action))
+    std::visit([&](const auto& action) { s.on(action, command); }, command.action);
 }
 
 void ProgramCheck::finish(const Ending& ending) {

@@ -1,5 +1,9 @@
 // Every limit that keeps a program from filling the memory: programs that go just past it.
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <csignal>
 
 #include "interp/flow.h"
 #include "interp/run_program.h"
@@ -37,33 +41,91 @@ std::string repeated(std::size_t times, const std::string& line) {
   return text;
 }
 
-TEST(Limits, OWordsThatTheIndexKeeps) {
-  const std::string tail = "o1 if [0]\no1 endif\nM2\n";
-  // Branches of one `if` need no labels of their own, so that the text stays small.
-  const auto program = [&](std::size_t words) {
-    return "G0 X1\no9 if [0]\n" + repeated(words - 4, "o9elseif[0]\n") + "o9 endif\n" + tail;
-  };
-  const Told told = limit_of(program(interp::FlowIndex::max_entries + 1));
-  EXPECT_NE(told.message.find("2000000 O-words"), std::string::npos) << told.message;
+/// Files may have this many bytes while it lives.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+};
+
+constexpr std::size_t past_the_memory = 100'000;  // more entries than are kept without a file
+
+TEST(Limits, OWordsWithoutRoomForTheirIndex) {
+  const std::string program = "G0 X1\no9 if [0]\n" + repeated(past_the_memory, "o9elseif[0]\n") +
+                              "o9 endif\no1 if [0]\no1 endif\nM2\n";
+  EXPECT_EQ(limit_of(program).message, "");
+  const FileSizeLimit limit(1 << 20);
+  const Told told = limit_of(program);
+  EXPECT_NE(told.message.find("temporary files"), std::string::npos) << told.message;
   EXPECT_EQ(told.line, 2u);  // where the first of them is executed
 }
 
-TEST(Limits, NWordsThatAJumpLooksAmong) {
-  const auto program = [](std::size_t blocks) {
-    return "%\nO1\nG0 X1.\nGOTO 7\n" + repeated(blocks, "N8\n") + "N7 M2\n%\n";
-  };
-  const Told told = limit_of(program(interp::FlowIndex::max_numbered), of(interp::Dialect::fanuc));
-  EXPECT_NE(told.message.find("8000000 N blocks"), std::string::npos) << told.message;
+TEST(Limits, NWordsWithoutRoomForTheirIndex) {
+  const std::string program =
+      "%\nO1\nG0 X1.\nGOTO 7\n" + repeated(past_the_memory, "N8\n") + "N7 M2\n%\n";
+  EXPECT_EQ(limit_of(program, of(interp::Dialect::fanuc)).message, "");
+  const FileSizeLimit limit(1 << 20);
+  const Told told = limit_of(program, of(interp::Dialect::fanuc));
+  EXPECT_NE(told.message.find("temporary files"), std::string::npos) << told.message;
   EXPECT_EQ(told.line, 4u);
 }
 
-TEST(Limits, AreNotReachedByHalfOfThem) {
-  EXPECT_EQ(limit_of("%\nO1\nGOTO 7\n" + repeated(400'000, "N8\n") + "N7 M2\n%\n",
-                     of(interp::Dialect::fanuc))
-                .message,
-            "");
-  EXPECT_EQ(limit_of("o9 if [0]\n" + repeated(100'000, "o9elseif[0]\n") + "o9 endif\nM2\n").message,
-            "");
+/// The kinds of what is told, with their lines.
+std::vector<std::pair<std::string, std::uint64_t>> told_by(const std::string& program,
+                                                           const Setting& setting = {}) {
+  SourceMap sources;
+  const Ran ran = run_program(sources, program, setting);
+  std::vector<std::pair<std::string, std::uint64_t>> told;
+  for (const Diagnostic& d : ran.diagnostics.list()) told.emplace_back(d.kind, d.span.line);
+  return told;
+}
+
+std::vector<std::string> moves_of(const Ran& ran) {
+  std::vector<std::string> moves;
+  for (const canon::Command& command : ran.commands)
+    if (canon::is_motion(command.action)) moves.push_back(canon::to_text(command.action));
+  return moves;
+}
+
+// A long program does what a short one does: jumps, subs, labels that are used twice.
+TEST(Limits, AnIndexInAFileLeadsToTheSamePlaces) {
+  std::string text = "#1=0\no1 while [#1 lt 3]\n#1=[#1+1]\no2 if [#1 eq 2]\no1 continue\n";
+  text += "o2 else\n";
+  for (std::size_t i = 0; i < past_the_memory; ++i) {
+    const std::string label = "o" + std::to_string(i + 10);
+    text += label + " if [1]\n" + label + " endif\n";
+  }
+  text += "o2 endif\n#2=[#2+1]\no1 endwhile\n";
+  text += "o77 sub\no77 if [1]\no77 endif\no77 endsub [5]\no77 call\n";
+  text += "o<x> if [#2 eq 2]\nG0 X[#<_value>]\no<x> endif\n";
+  text += "o500 if [1]\no500 endif\n";  // a label that is used again, behind the sub: a new scope
+  text += "o501 if [1]\no501 endif\no501 if [1]\no501 endif\nM2\n";
+  SourceMap sources;
+  const Ran ran = run_program(sources, text);
+  EXPECT_EQ(moves_of(ran), std::vector<std::string>{"rapid X5 Y0 Z0"});
+  const std::uint64_t last = static_cast<std::uint64_t>(std::count(text.begin(), text.end(), '\n'));
+  EXPECT_EQ(told_by(text),
+            (std::vector<std::pair<std::string, std::uint64_t>>{{"label_reused", last - 2}}));
+}
+
+TEST(Limits, NWordsInAFileAreFoundBehindAndThenFromTheTop) {
+  std::string text = "%\nO1\n#1=0\nN5 #1=#1+1\n";
+  for (std::size_t i = past_the_memory; i > 0; --i) text += "N" + std::to_string(i + 10) + "\n";
+  text += "IF[#1LT3]GOTO5\nGOTO6\nN6 G0 X#1\nM30\n%\n";
+  SourceMap sources;
+  const Ran ran = run_program(sources, text, of(interp::Dialect::fanuc));
+  EXPECT_EQ(moves_of(ran), std::vector<std::string>{"rapid X3 Y0 Z0"});
 }
 
 TEST(Limits, LoopsAndBranchesInsideEachOther) {
