@@ -231,9 +231,10 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_run->add_option("--size", size, "picture size (default 1280x800)")->type_name("WxH");
   c_run
       ->add_option("--motion", run.motion,
-                   "animation in the folder: glb writes motion.glb (glTF 2.0)")
-      ->check(CLI::IsMember({"glb"}).description(""))
-      ->type_name("glb");
+                   "animation in the folder: glb writes motion.glb (glTF 2.0), png the frames by "
+                   "time as motion.png (repeatable)")
+      ->check(CLI::IsMember({"glb", "png"}).description(""))
+      ->type_name("glb|png");
   c_run
       ->add_option("--max-sim-time", run.max_time,
                    "simulated seconds before the run ends as unknown")

@@ -145,6 +145,10 @@ bool wants_frames(const RunArguments& a) {
   return !(a.frames.size() == 1 && a.frames[0] == "none");
 }
 
+bool wants_motion(const RunArguments& a, std::string_view form) {
+  return std::find(a.motion.begin(), a.motion.end(), form) != a.motion.end();
+}
+
 // What is left of the stock: as a mesh, for the next job, and compared with the design.
 Expected<void> write_part(const RunArguments& a, const sim::Simulator& simulator,
                           const std::optional<std::string>& saved, report::RunReport& report) {
@@ -206,6 +210,7 @@ Expected<report::FrameOptions> frame_options(const RunArguments& a) {
   options.camera = a.camera;
   options.size = {a.width, a.height};
   options.program = a.program.program;
+  options.motion = wants_motion(a, "png");
   for (const std::string& text : a.frames)
     if (text != "none")
       if (auto added = report::add_frames(options.spec, text); !added)
@@ -232,6 +237,8 @@ int run_command(const RunArguments& a) {
     return fail(make_error("usage", "--frames needs -o DIR to write into"));
   if (a.folder.empty() && !a.motion.empty())
     return fail(make_error("usage", "--motion needs -o DIR to write into"));
+  if (wants_motion(a, "png") && !wants_frames(a))
+    return fail(make_error("usage", "--motion png shows the frames: --frames none leaves none"));
   if (const auto ok = check_outputs(a); !ok) return fail(ok.error());
   const bool as_hdf5 = fs::path(a.log).extension() == ".h5";
   if (as_hdf5)
@@ -421,7 +428,7 @@ int run_command(const RunArguments& a) {
     if (!history) return fail(history.error());
     const auto stock = page::stock_stages(*replay, history->get());
     if (!stock) return fail(stock.error());
-    if (!a.motion.empty()) {
+    if (wants_motion(a, "glb")) {
       if (auto written = write_file(a.folder + "/motion.glb", page::glb_bytes(*replay, *stock));
           !written)
         return fail(written.error());

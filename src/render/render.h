@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,9 @@ struct Image {
   std::vector<unsigned char> rgba;
 };
 std::string png_bytes(const Image& image);  ///< deterministic; libpng, SUB filter, level 3
+/// Pictures from png_bytes, all of one size, as an animated PNG that goes on for ever; empty when
+/// they are not.
+std::string apng_bytes(std::span<const std::string> pictures, double seconds_each);
 
 struct DrawBody {
   std::string name;

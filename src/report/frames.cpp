@@ -402,6 +402,7 @@ Expected<std::vector<std::string>> FrameMaker::write(const std::string& folder,
   const std::vector<Impl::Job> jobs = impl.jobs_of(findings);
   std::vector<std::string> written;
   std::map<std::size_t, render::SheetCell> cells;  // by job
+  std::vector<std::string> moving;                 // PNG bytes, in time
   std::vector<std::size_t> in_time(jobs.size());   // the stock is cut once, from first to last
   std::size_t sheet_cells = 0;
   std::vector<bool> in_sheet;
@@ -416,9 +417,18 @@ Expected<std::vector<std::string>> FrameMaker::write(const std::string& folder,
   for (const std::size_t i : in_time) {
     auto image = impl.draw(jobs[i], *renderer);
     if (!image) return unexpected(image.error());
-    if (auto done = write_file(folder + "/" + written[i], render::png_bytes(*image)); !done)
+    std::string png = render::png_bytes(*image);
+    if (auto done = write_file(folder + "/" + written[i], png); !done)
       return unexpected(done.error());
+    if (impl.options.motion && !jobs[i].finding) moving.push_back(std::move(png));
     if (in_sheet[i]) cells[i] = {std::move(*image), jobs[i].sheet_text};
+  }
+  if (!moving.empty()) {
+    constexpr double length = 8, quickest = 0.04, slowest = 0.5;  // s
+    const double each = std::clamp(length / static_cast<double>(moving.size()), quickest, slowest);
+    if (auto done = write_file(folder + "/motion.png", render::apng_bytes(moving, each)); !done)
+      return unexpected(done.error());
+    written.push_back("motion.png");
   }
   if (cells.empty()) return written;
   std::vector<render::SheetCell> sheet;

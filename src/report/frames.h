@@ -32,6 +32,7 @@ struct FrameOptions {
   std::string camera = "work";  ///< `work` (the work and the tool), or a name of camera_by_name
   render::FrameSize size;
   std::string program;  ///< for the caption
+  bool motion = false;  ///< also motion.png: the sheet's pictures one after the other
 };
 
 /// A moment of the run that may become a picture.
