@@ -232,9 +232,9 @@ bool evaluate(const Value& value, const Code& code, const Parameters& parameters
   Machine machine(parameters, fault);
   double* below = machine.stack.data();  // one behind the operands below the top
   double top = 0;                        // the first push puts this aside, and nobody takes it
-  const auto push = [&](double number) {
+  const auto push = [&](double value_on_top) {
     *below++ = top;
-    top = number;
+    top = value_on_top;
   };
   const Instruction* at = code.data() + value.first;
   const Instruction* const end = at + value.count;
