@@ -26,9 +26,22 @@ Expected<ToolTable> read_tools(const std::string& path, double unit_mm, SourceMa
     };
     return read_toml(**text, holders, out);
   }
-  const Diagnostic error =
-      make_error("tools_invalid",
-                 "'" + printable(path) + "' is no tool table: its name must end in .tbl or .toml");
+  if (extension == ".json") return read_fusion(**text, out);
+  if (extension == ".fctb") return read_fctb(**text, 1, out);
+  if (extension == ".fctl") {
+    // FreeCAD keeps libraries in Library/ and their tools in Bit/ beside it.
+    const SourceReader tools = [&](const std::string& name) {
+      auto beside = sources.open((file.parent_path() / name).string());
+      if (beside) return beside;
+      auto bit = sources.open((file.parent_path().parent_path() / "Bit" / name).string());
+      return bit ? bit : beside;
+    };
+    return read_fctl(**text, tools, out);
+  }
+  const Diagnostic error = make_error(
+      "tools_invalid", "'" + printable(path) +
+                           "' is no tool table: its name must end in .tbl, .toml, .json (Fusion), "
+                           ".fctl or .fctb (FreeCAD)");
   out.add(error);
   return unexpected(error);
 }

@@ -18,6 +18,7 @@
 #include <set>
 
 #include "config/config.h"
+#include "tool/insert.h"
 #include "tool/keys.h"
 #include "tool/tool.h"
 
@@ -29,6 +30,7 @@ using config::Table;
 
 constexpr double gauge_tolerance = 0.5;  // mm, between length offset and gauge length
 constexpr int largest_number = 99'999'999;
+constexpr int most_teeth = 1000;
 
 /// A holder: its outline from the lower face, z = 0, to the gauge face.
 struct Holder {
@@ -208,7 +210,59 @@ void read_offset(Context& context, Lengths& in, Tool& tool) {
   }
 }
 
-/// A lathe tool: no solid of revolution, so no pieces; the nose circle is its diameter.
+/// `teeth` and the limits of a cut. Angles in degrees, the removal in cm³ or cubic inches a minute.
+void read_limits(Lengths& in, Tool& tool) {
+  const auto teeth = in.table().integer("teeth");
+  if (teeth && (*teeth < 1 || *teeth > most_teeth))
+    in.fail("teeth", "'teeth' needs a whole number from 1 to " + std::to_string(most_teeth));
+  else if (teeth)
+    tool.teeth = static_cast<int>(*teeth);
+  tool.limits.depth = in.optional("max_depth", false).value_or(0);
+  tool.limits.width = in.optional("max_width", false).value_or(0);
+  tool.limits.angle = in.angle("max_engagement", 0, 360).value_or(0);
+  tool.limits.chip_load = in.optional("max_chip_load", false).value_or(0);
+  if (tool.limits.chip_load > 0 && !in.table().has("teeth"))
+    in.fail("max_chip_load", "'max_chip_load' needs 'teeth' too");
+  if (const auto removal = in.table().number("max_removal")) {
+    if (!(*removal > 0)) in.fail("max_removal", "'max_removal' needs more than 0");
+    const double cube = in.unit_mm() == 1 ? 1000 : in.unit_mm() * in.unit_mm() * in.unit_mm();
+    tool.limits.removal = *removal * cube / 60;
+  }
+}
+
+/// One of `[[tool.block]]`: what holds an insert.
+std::optional<Block> read_block(Table table, double unit_mm) {
+  Block block;
+  block.role = table.choice("role", {"holder", "shank"}, "holder") == "shank" ? PieceRole::shank
+                                                                              : PieceRole::holder;
+  block.name = table.text("name", block.role == PieceRole::shank ? "shank" : "holder");
+  const auto outline = table.number_lists("outline", 2);
+  const auto y = table.numbers("y", 2);
+  const auto fail = [&](const char* key, const std::string& message) {
+    table.error(key, message);
+    return std::nullopt;
+  };
+  if (!table.has("outline"))
+    return fail("outline", "'outline' is missing: it needs corners [[x, z], ...]");
+  if (!table.has("y")) return fail("y", "'y' is missing: it needs [low, high]");
+  if (!outline || !y) return std::nullopt;
+  block.y_low = (*y)[0] * unit_mm;
+  block.y_high = (*y)[1] * unit_mm;
+  if (!(block.y_low < block.y_high)) return fail("y", "'y' needs [low, high], low less than high");
+  double farthest = std::max(std::abs(block.y_low), std::abs(block.y_high));
+  for (const auto& point : *outline) {
+    block.outline.push_back({point[0] * unit_mm, point[1] * unit_mm});
+    for (const double value : block.outline.back()) farthest = std::max(farthest, std::abs(value));
+  }
+  if (farthest > largest_length) return fail("outline", "the block is beyond 100 m");
+  if (!make_convex(block.outline))
+    return fail("outline",
+                "'outline' needs at least three corners around a convex shape; a tool "
+                "may have several blocks");
+  return block;
+}
+
+/// A lathe tool: no solid of revolution, but an insert and blocks; the nose circle is its diameter.
 void read_turning(Lengths& in, Tool& tool) {
   tool.diameter = 2 * in.optional("nose_radius", true).value_or(0);
   tool.flute_length = in.optional("edge_length", false).value_or(0);
@@ -219,6 +273,17 @@ void read_turning(Lengths& in, Tool& tool) {
     in.fail("orientation", "'orientation' needs a whole number from 0 to 9");
   else if (orientation)
     tool.orientation = static_cast<int>(*orientation);
+  const auto thickness = in.optional("thickness", false);
+  for (Table& table : in.table().tables("block"))
+    if (auto block = read_block(table, in.unit_mm())) tool.blocks.push_back(std::move(*block));
+  const bool held = !tool.blocks.empty();
+  if (!held && !thickness) return;
+  if (!held) tool.unknown = "what holds its insert ([[tool.block]])";
+  if (!thickness) tool.unknown = "the thickness of its insert";
+  if (!thickness || !in.good()) return;
+  const auto insert = insert_of(tool);
+  if (!insert) return in.fail("thickness", "the insert has " + insert.error());
+  tool.blocks.push_back(insert_block(*insert, *thickness));
 }
 
 /// `number`, and `pocket`, which is the number when it is not given.
@@ -257,10 +322,12 @@ Tool read_tool(Context& context, Table table, std::set<int>& numbers) {
     for (const std::string& key : table.keys()) table.know(key);
     return tool;
   }
-  if (kind == "turning")
+  if (kind == "turning") {
     read_turning(in, tool);
-  else
+  } else {
+    read_limits(in, tool);
     assemble(context, in, kind, tool);
+  }
   read_offset(context, in, tool);
   return tool;
 }

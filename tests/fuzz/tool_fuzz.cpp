@@ -1,5 +1,6 @@
-// Tool tables from outside: any bytes, as tool.tbl and as tools.toml. Holders resolve to the same
-// bytes, so that the reader of holder files sees them too.
+// Tool tables from outside: any bytes, as tool.tbl, as tools.toml and as libraries of Fusion and
+// FreeCAD. Holders and tools that they name resolve to the same bytes, so that the readers of those
+// files see them too.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -38,6 +39,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   };
   Diagnostics more;
   if (const auto table = tool::read_toml(text, holders, more)) expect_sound(*table);
+  if (const auto table = tool::read_fusion(text, more)) expect_sound(*table);
+  if (const auto table = tool::read_fctb(text, 1, more)) expect_sound(*table);
+  if (const auto table = tool::read_fctl(text, holders, more)) expect_sound(*table);
   for (const Diagnostic& d : out.list()) format_human(d, {});
   for (const Diagnostic& d : more.list()) format_human(d, {});
   return 0;
