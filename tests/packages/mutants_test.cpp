@@ -2,11 +2,12 @@
 // and every fault must be found at its line. The clean job gives no error and no warning.
 //
 // The job is programs/bracket.ngc with its block; AIRCUT_MUTANTS=all tries every fault, otherwise
-// a few that are quick.
+// a few that are quick. Each is a run of its own, and as many run at once as there are cores.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include <functional>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace aircut {
@@ -45,6 +47,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 // What is run: texts that a fault changes.
 struct Job {
   std::string program, setup, tools;
+  bool dogleg = false;  ///< the machine's rapids
 };
 
 // A fault and where it must show.
@@ -61,8 +64,10 @@ class SeededFaults : public ::testing::Test {
  protected:
   SeededFaults() {
     const fs::path source(AIRCUT_SOURCE_DIR);
+    // Places on rays are exact at any pitch, so a coarse lattice is enough.
     clean_ = {read(source / "programs/bracket.ngc"),
-              read(source / "programs/mill3-block.setup.toml"),
+              replaced(read(source / "programs/mill3-block.setup.toml"), "[stock]\n",
+                       "[stock]\npitch = 0.5\n"),
               read(source / "machines/mill3/tools.toml")};
     program_ = lines_of(clean_.program);
     std::string name = (fs::temp_directory_path() / "aircut-mutants-XXXXXX").string();
@@ -70,18 +75,26 @@ class SeededFaults : public ::testing::Test {
     fs::create_directory(folder_ / "holders");
     for (const auto& entry : fs::directory_iterator(source / "machines/mill3/holders"))
       fs::copy(entry.path(), folder_ / "holders");
+    fs::copy(source / "machines/mill3", folder_ / "dogleg", fs::copy_options::recursive);
+    std::ofstream(folder_ / "dogleg/machine.toml")
+        << replaced(read(source / "machines/mill3/machine.toml"), "rapid = \"coordinated\"",
+                    "rapid = \"dogleg\"");
   }
   ~SeededFaults() override { fs::remove_all(folder_); }
 
-  // The messages, one per line.
-  std::vector<std::string> messages(const Job& job) const {
-    std::ofstream(folder_ / "job.ngc") << job.program;
-    std::ofstream(folder_ / "job.setup.toml") << job.setup;
-    std::ofstream(folder_ / "tools.toml") << job.tools;
-    const std::string command =
-        "cd " + folder_.string() +
-        " && timeout 120 " AIRCUT_BINARY_DIR "/bin/aircut run job.ngc -m " +
-        AIRCUT_SOURCE_DIR "/machines/mill3 --setup job.setup.toml -t tools.toml --format gcc 2>&1";
+  // The messages of a run in a folder of its own, one per line.
+  std::vector<std::string> messages(const Job& job, std::size_t number) const {
+    const fs::path place = folder_ / std::to_string(number);
+    fs::create_directory(place);
+    fs::create_directory_symlink(folder_ / "holders", place / "holders");
+    std::ofstream(place / "job.ngc") << job.program;
+    std::ofstream(place / "job.setup.toml") << job.setup;
+    std::ofstream(place / "tools.toml") << job.tools;
+    const std::string machine = job.dogleg ? (folder_ / "dogleg").string()
+                                           : std::string(AIRCUT_SOURCE_DIR "/machines/mill3");
+    const std::string command = "cd " + place.string() +
+                                " && timeout 120 " AIRCUT_BINARY_DIR "/bin/aircut run job.ngc -m " +
+                                machine + " --setup job.setup.toml -t tools.toml --format gcc 2>&1";
     std::string out;
     if (std::FILE* pipe = ::popen(command.c_str(), "r")) {
       std::array<char, 4096> buffer;
@@ -89,7 +102,22 @@ class SeededFaults : public ::testing::Test {
         out.append(buffer.data(), n);
       ::pclose(pipe);
     }
+    fs::remove_all(place);
     return lines_of(out);
+  }
+
+  // The messages of all runs, in their order.
+  std::vector<std::vector<std::string>> all_messages(const std::vector<Mutant>& mutants) const {
+    std::vector<std::vector<std::string>> out(mutants.size());
+    std::atomic<std::size_t> next{0};
+    std::vector<std::thread> workers(std::max(std::thread::hardware_concurrency(), 1u));
+    for (std::thread& worker : workers)
+      worker = std::thread([&] {
+        for (std::size_t i = next++; i < mutants.size(); i = next++)
+          out[i] = messages(mutants[i].job, i);
+      });
+    for (std::thread& worker : workers) worker.join();
+    return out;
   }
 
   static bool found(const Mutant& mutant, const std::vector<std::string>& messages) {
@@ -136,6 +164,12 @@ class SeededFaults : public ::testing::Test {
   void changes(std::vector<Mutant>& out) const;
   void clearances(std::vector<Mutant>& out) const;
   void set_up(std::vector<Mutant>& out) const;
+  void rapids(std::vector<Mutant>& out) const;
+  void planes(std::vector<Mutant>& out) const;
+  void retracts(std::vector<Mutant>& out) const;
+  void stick_outs(std::vector<Mutant>& out) const;
+  Job with_lines(std::size_t line, const std::vector<std::string>& texts) const;
+  std::vector<Mutant> dogleg_moves(bool dogleg) const;
 
   Job clean_;
   std::vector<std::string> program_;
@@ -166,7 +200,15 @@ void SeededFaults::spindle(std::vector<Mutant>& out) const {
     };
     add("no M3", replaced(program_[line - 1], " M3", ""), "spindle_stopped_cut");
     add("M4", replaced(program_[line - 1], "M3", "M4"), "spindle_direction_cut");
+    add("S0", "S0 M3", "spindle_stopped_cut");
   }
+  for (const std::size_t line : lines_with("M8"))
+    out.push_back({"M5 in place of M8",
+                   with_line(line, "M5"),
+                   "job.ngc",
+                   line,
+                   next(line, "M6"),
+                   {"spindle_stopped_cut"}});
 }
 
 // Each H in place of each other one, and none.
@@ -199,6 +241,17 @@ void SeededFaults::changes(std::vector<Mutant>& out) const {
          line,
          next(line + 1, "M6"),
          {"wrong_offset", "no_tool_cut", "length_offset_missing", "rapid_cut", "not_checked"}});
+  for (const std::size_t line : lines_with("T"))
+    for (const char* t : {"1", "2", "4", "5", "6", "8"}) {
+      const std::string text = std::string("T") + t + " M6";
+      if (program_[line - 1] != text)
+        out.push_back({"wrong tool",
+                       with_line(line, text),
+                       "job.ngc",
+                       line,
+                       next(line, "M6"),
+                       {"wrong_offset"}});
+    }
 }
 
 // R planes and retracts below the face, a plane and a unit that are wrong, a hole through the vise.
@@ -311,9 +364,133 @@ void SeededFaults::set_up(std::vector<Mutant>& out) const {
     }
 }
 
+Job SeededFaults::with_lines(std::size_t line, const std::vector<std::string>& texts) const {
+  Job job = clean_;
+  job.program.clear();
+  for (std::size_t i = 0; i < program_.size(); ++i) {
+    const bool changed = i + 1 >= line && i + 1 < line + texts.size();
+    job.program += (changed ? texts[i + 1 - line] : program_[i]) + "\n";
+  }
+  return job;
+}
+
+// Out of the corner between contour and vise, steeply up along a straight line: it clears the wall
+// by 20 mm. Where each axis goes at its own speed the tool goes sideways as fast as up.
+std::vector<Mutant> SeededFaults::dogleg_moves(bool dogleg) const {
+  std::vector<Mutant> out;
+  const std::size_t line = next(50, "M9");
+  for (const int y : {-20, -10, 0, 10, 20})
+    for (const int side : {-1, 1}) {
+      const auto x = [&](int value) { return "X" + std::to_string(side * value); };
+      Job job = with_lines(line, {"G0 " + x(80) + " Y" + std::to_string(y), "G0 " + x(63) + " Z-8",
+                                  "G0 " + x(60) + " Z82"});
+      job.dogleg = dogleg;
+      out.push_back({"dog-leg rapid", job, "job.ngc", line + 2, line + 2, {"rapid_cut"}});
+    }
+  return out;
+}
+
+void SeededFaults::rapids(std::vector<Mutant>& out) const {
+  for (Mutant& mutant : dogleg_moves(true)) out.push_back(std::move(mutant));
+  // Approaches that go below the face.
+  struct Approach {
+    const char* tool;
+    const char* from;
+    const char* to;
+  };
+  for (const auto& [tool, from, to] : {Approach{"T5 M6", "G0 Z5", "G0 X-50 Z-3"},
+                                       {"T2 M6", "G0 Z20", "G0 Z-12"},
+                                       {"T2 M6", "G0 Z20", "G0 X40 Z-6"},
+                                       {"T8 M6", "G0 Z20", "G0 Z-3"},
+                                       {"T8 M6", "G0 Z20", "G0 Z-5"},
+                                       {"T4 M6", "G0 Z20", "G0 Z-8"},
+                                       {"T4 M6", "G0 Z20", "G0 Z-20"},
+                                       {"T6 M6", "G0 Z2", "G0 X-40 Y20 Z-4"}}) {
+    const std::size_t line = next(next(8, tool), from);
+    out.push_back(
+        {"approach below the face", with_line(line, to), "job.ngc", line, line, {"rapid_cut"}});
+  }
+}
+
+// Arcs and cycles in the wrong plane.
+void SeededFaults::planes(std::vector<Mutant>& out) const {
+  struct Place {
+    const char* tool;
+    const char* line;
+    const char* shows;
+  };
+  for (const char* plane : {"G18", "G19"})
+    for (const auto& [tool, text, shows] : {Place{"T5 M6", "G1 Z-1", "G2"},
+                                            {"T1 M6", "  G1 Z#<depth>", "  G2"},
+                                            {"T2 M6", "G1 Z-10", "G3"},
+                                            {"T6 M6", "G1 Z-4", "G2"}}) {
+      const std::size_t line = next(next(8, tool), text);
+      const std::size_t arc = next(line, shows);
+      out.push_back({"wrong plane",
+                     with_line(line, std::string(plane) + " " + program_[line - 1]),
+                     "job.ngc",
+                     arc,
+                     arc,
+                     {"arc_error"}});
+    }
+  for (const char* plane : {"G18", "G19"})
+    for (const char* tool : {"T8 M6", "T4 M6"}) {
+      const std::size_t line = next(next(8, tool), "M8");
+      out.push_back({"wrong plane",
+                     with_line(line, plane),
+                     "job.ngc",
+                     line,
+                     line + 4,
+                     {"cycle_error", "rapid_cut", "collision", "overtravel", "word_missing",
+                      "axis_word_missing"}});
+    }
+}
+
+// A sideways rapid where the tool should come up first.
+void SeededFaults::retracts(std::vector<Mutant>& out) const {
+  struct Place {
+    const char* tool;
+    std::vector<const char*> moves;
+  };
+  const Place places[] = {{"T5 M6", {"G0 X0 Y0 Z-3", "G0 X-20 Z-2", "G0 X0 Y10 Z-4"}},
+                          {"T2 M6", {"G0 X40 Y0", "G0 X-40 Y0", "G0 X0 Y30", "G0 X10 Y-30"}},
+                          {"T6 M6", {"G0 X40 Y20", "G0 X0 Y0", "G0 X-30 Y-20", "G0 X50 Y-30"}}};
+  for (const Place& place : places) {
+    const std::size_t first = next(8, place.tool);
+    std::size_t line = first;  // the last retract with this tool
+    for (std::size_t i = next(first, "G0 Z20"); i < next(first, "M6"); i = next(i, "G0 Z20"))
+      line = i;
+    for (const char* move : place.moves)
+      out.push_back(
+          {"missing retract", with_line(line, move), "job.ngc", line, line, {"rapid_cut"}});
+  }
+}
+
+// A holder that is nearer to the tip than the cut is deep.
+void SeededFaults::stick_outs(std::vector<Mutant>& out) const {
+  struct Tool {
+    const char* name;
+    const char* as_it_is;
+    std::vector<std::pair<const char*, const char*>> shorter;
+  };
+  const Tool tools[] = {
+      {"T1 M6",
+       "flute_length = 22.0\nstick_out = 36.0",
+       {{"10.0", "11.0"}, {"11.0", "12.0"}, {"12.0", "13.0"}}},
+      {"T2 M6", "flute_length = 16.0\nstick_out = 30.0", {{"6.0", "7.0"}, {"7.0", "8.0"}}},
+      {"T4 M6", "flute_length = 61.0\nstick_out = 74.0", {{"15.0", "16.0"}, {"20.0", "22.0"}}}};
+  for (const Tool& tool : tools) {
+    const std::size_t line = next(8, tool.name);
+    for (const auto& [flutes, stick_out] : tool.shorter) {
+      Job job = clean_;
+      job.tools = replaced(job.tools, tool.as_it_is,
+                           std::string("flute_length = ") + flutes + "\nstick_out = " + stick_out);
+      out.push_back({"short stick-out", job, "job.ngc", line, next(line, "M6"), {"collision"}});
+    }
+  }
+}
+
 TEST_F(SeededFaults, AreFoundAtTheirLines) {
-  for (const std::string& message : messages(clean_))
-    EXPECT_EQ(message.find(": error: "), std::string::npos) << message;
   std::vector<Mutant> all;
   feed_becomes_rapid(all);
   spindle(all);
@@ -322,23 +499,43 @@ TEST_F(SeededFaults, AreFoundAtTheirLines) {
   changes(all);
   clearances(all);
   set_up(all);
+  rapids(all);
+  planes(all);
+  retracts(all);
+  stick_outs(all);
   for (std::size_t i = quick; i < all.size(); ++i) all[i].quick = false;
   const bool every = std::getenv("AIRCUT_MUTANTS") != nullptr;
+  std::vector<Mutant> tried;
   std::string last;
-  int tried = 0;
   for (const Mutant& mutant : all) {
     if (!every && (mutant.kind == last || !mutant.quick)) continue;
     last = mutant.kind;
-    ++tried;
-    const auto said = messages(mutant.job);
-    std::string text;
-    for (std::size_t i = 0; i < said.size() && i < 8; ++i) text += said[i] + "\n";
-    EXPECT_TRUE(found(mutant, said)) << mutant.kind << ", expected at " << mutant.file << ":"
-                                     << mutant.low << "-" << mutant.high << "\n"
-                                     << text;
+    tried.push_back(mutant);
   }
-  RecordProperty("mutants", tried);
-  std::printf("%d mutants of %zu\n", tried, all.size());
+  const std::size_t faults = tried.size();
+  // Jobs without a fault: as it is, and the straight rapids whose dog-legs are faults.
+  tried.push_back({"clean", clean_, "job.ngc", 0, 0, {}});
+  if (every)
+    for (Mutant& mutant : dogleg_moves(false)) tried.push_back(std::move(mutant));
+  const auto said = all_messages(tried);
+  for (std::size_t i = 0; i < tried.size(); ++i) {
+    std::string text;
+    for (std::size_t k = 0; k < said[i].size() && (k < 8 || i >= faults); ++k)
+      text += said[i][k] + "\n";
+    if (i < faults) {
+      EXPECT_TRUE(found(tried[i], said[i])) << tried[i].kind << ", expected at " << tried[i].file
+                                            << ":" << tried[i].low << "-" << tried[i].high << "\n"
+                                            << text;
+    } else {
+      EXPECT_EQ(text.find(": error: "), std::string::npos) << text;
+      EXPECT_EQ(text.find(": warning: "), std::string::npos) << text;
+    }
+  }
+  if (every) {
+    EXPECT_GE(all.size(), 200u);
+  }
+  RecordProperty("mutants", static_cast<int>(faults));
+  std::printf("%zu mutants of %zu\n", faults, all.size());
 }
 
 }  // namespace
