@@ -58,6 +58,8 @@ std::string underline_remark(const sim::Finding& f) {
     case sim::Kind::gouge_live:
     case sim::Kind::plunge_not_center_cutting:
       return "from " + whole(f.u_first) + " % of this move on, t = " + seconds(f.t_first);
+    case sim::Kind::overtravel_margin:
+      return "from " + whole(f.u_first) + " % of this move on, t = " + seconds(f.t_first);
     case sim::Kind::overtravel:
       return "outside from " + whole(f.u_first) + " % to " + whole(f.u_end) +
              " % of this move, t = " + fixed(f.t_first, 3) + " … " + seconds(f.t_end);
@@ -66,6 +68,10 @@ std::string underline_remark(const sim::Finding& f) {
       return "from " + fixed(f.u_first * 100, 1) + " % of this move on, t = " + seconds(f.t_first);
     case sim::Kind::self_overlap:
     case sim::Kind::tool_change_collision:
+    case sim::Kind::axis_unwind:
+    case sim::Kind::feed_not_reached:
+    case sim::Kind::engagement_limit:
+    case sim::Kind::loose_piece:
     case sim::Kind::sync_limit:
     case sim::Kind::air_cut:
     case sim::Kind::dynamics_limit:

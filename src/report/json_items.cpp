@@ -97,6 +97,7 @@ Json finding(const sim::Finding& f, const Diagnostic& text, const std::string& p
           {"points_mm", points},
           {"normal", vector3(f.normal)},
           {"joint", utf8(f.joint)},
+          {"quantity", f.quantity},
           {"value", or_null(f.value)},
           {"limit", or_null(f.limit)},
           {"unit", f.unit},

@@ -20,14 +20,19 @@ constexpr KindRow kinds[] = {
     {Kind::self_overlap, "self_overlap", Severity::error},
     {Kind::tool_change_collision, "tool_change_collision", Severity::error},
     {Kind::overtravel, "overtravel", Severity::error},
+    {Kind::overtravel_margin, "overtravel_margin", Severity::info},
     {Kind::unreachable, "unreachable", Severity::error},
     {Kind::singular, "singular", Severity::error},
+    {Kind::axis_unwind, "axis_unwind", Severity::warning},
+    {Kind::feed_not_reached, "feed_not_reached", Severity::info},
     {Kind::sync_limit, "sync_limit", Severity::error},
     {Kind::rapid_cut, "rapid_cut", Severity::error},
     {Kind::spindle_stopped_cut, "spindle_stopped_cut", Severity::error},
     {Kind::spindle_direction_cut, "spindle_direction_cut", Severity::error},
     {Kind::no_tool_cut, "no_tool_cut", Severity::error},
     {Kind::plunge_not_center_cutting, "plunge_not_center_cutting", Severity::error},
+    {Kind::engagement_limit, "engagement_limit", Severity::warning},
+    {Kind::loose_piece, "loose_piece", Severity::warning},
     {Kind::air_cut, "air_cut", Severity::info},
     {Kind::gouge, "gouge", Severity::error},
     {Kind::gouge_live, "gouge_live", Severity::error},
@@ -61,6 +66,11 @@ std::string_view to_string(Verdict verdict) {
   return "unknown";
 }
 
+std::string work_system_name(int system) {
+  return system > 100 ? "G54.1 P" + std::to_string(system - 100)
+                      : work_systems[std::clamp(system, 1, 9) - 1];
+}
+
 Finding finding_at(Kind kind, const Step& step, double t) {
   const plan::Segment& segment = step.segment;
   Finding f;
@@ -73,9 +83,7 @@ Finding finding_at(Kind kind, const Step& step, double t) {
   f.t_block_end = segment.t_end();
   f.tool = step.scene.loaded_tool();
   if (const tool::Tool* tool = step.scene.tool()) f.tool_name = tool->name;
-  const int system = segment.work_system;
-  f.work_system = system > 100 ? "G54.1 P" + std::to_string(system - 100)
-                               : work_systems[std::clamp(system, 1, 9) - 1];
+  f.work_system = work_system_name(segment.work_system);
   f.motion = segment.kind;
   f.t_first = f.t_worst = f.t_end = t;
   f.feed = segment.feed;
@@ -152,7 +160,7 @@ void Findings::add(Finding finding) {
 
 std::vector<Finding> Findings::finish() {
   const auto key = [](const Finding& f) {
-    return std::tie(f.t_first, f.kind, f.body_a, f.body_b, f.joint, f.t_end);
+    return std::tie(f.t_first, f.kind, f.body_a, f.body_b, f.joint, f.quantity, f.t_end);
   };
   std::stable_sort(list_.begin(), list_.end(),
                    [&](const Finding& a, const Finding& b) { return key(a) < key(b); });

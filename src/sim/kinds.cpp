@@ -42,6 +42,13 @@ const std::vector<KindText>& finding_kinds() {
        "how far\n"
        "it goes and the part of the move.\n"
        "Remedy: move the work offset, clamp the part elsewhere, or split the move."},
+      {"overtravel_margin", "a joint comes close to its limit",
+       "A joint comes nearer than 1 mm or 1° to the end of its range without passing it: a small\n"
+       "change of the offset or of the tool's length and the move stops. Told where a joint comes\n"
+       "into that margin, not while it stays there, and not for the joint's home position. At "
+       "most\n"
+       "100 places are listed, the nearest ones.\n"
+       "Remedy: move the work offset, or clamp the part elsewhere."},
       {"unreachable", "the machine has no joint values for a pose on the path",
        "The inverse kinematics has no solution somewhere on the path (a rod too short, an arm "
        "stretched).\n"
@@ -50,6 +57,24 @@ const std::vector<KindText>& finding_kinds() {
        "program was not checked."},
       {"singular", "the machine can't pass a pose at any speed",
        "At a singular pose a joint would need an unlimited speed. Planning ends there."},
+      {"axis_unwind", "a rotary joint turns back, or winds up",
+       "A rotary joint travels more than 180° in a block at whose end the tool points the same "
+       "way\n"
+       "(within 10°) as at its start, seen from the work: the program takes the long way round, "
+       "or\n"
+       "the control unwinds the axis in the middle of a cut. Or a joint that has an end (wrap =\n"
+       "\"none\") is more than 720° from where it began: cables and hoses wind up with it.\n"
+       "Remedy: let the post choose the nearer angle, split the path with a retract; where the "
+       "turn\n"
+       "is meant, accept it: --waive axis_unwind=REASON. At most 100 blocks are listed."},
+      {"feed_not_reached", "a feed move stays far below its F",
+       "Over more than a tenth of the block's way the tool stays under half of the programmed "
+       "feed,\n"
+       "because the machine can't accelerate so fast, or a joint is at its top speed. The chip "
+       "gets\n"
+       "thinner than the program says, and the time longer. The 20 blocks that lose most time are\n"
+       "listed.\n"
+       "Remedy: G64 with a tolerance in place of exact stops, longer moves, or a lower F."},
       {"sync_limit", "an axis can't follow the spindle",
        "In threading and rigid tapping (G33, G33.1) the axis must go its pitch per revolution. "
        "Here "
@@ -85,6 +110,20 @@ const std::vector<KindText>& finding_kinds() {
        "3°\n"
        "of its axis.\n"
        "Remedy: enter by a ramp or a helix, drill first, or correct the tool's description."},
+      {"engagement_limit", "a cut asks more of the tool than its limits",
+       "The tool file gives limits: max_depth (along the axis), max_width (across the feed),\n"
+       "max_engagement (angle), max_removal (volume per minute) and, with `teeth`, max_chip_load\n"
+       "(feed per tooth). Here the cut passes one of them. Depth, width and angle are measured in\n"
+       "the stock of that moment, on its lattice, so they may be up to a pitch larger than told.\n"
+       "Remedy: a smaller depth or step-over, a lower F, a higher S; see the message for which.\n"
+       "At most 1000 places are listed, those farthest beyond their limits."},
+      {"loose_piece", "a piece of the stock comes loose",
+       "After this line the stock is in separate pieces, and one of them is not held: no fixture\n"
+       "and no body that carries the stock touches it. (Where nothing touches any of them the\n"
+       "largest counts as held.) Loose pieces jam, break tools and fly. Pieces under 1 mm³ or "
+       "some\n"
+       "cells of the lattice don't count.\n"
+       "Remedy: leave tabs, clamp it, or turn it all to chips."},
       {"air_cut", "a long feed move takes nothing",
        "A feed move of more than 20 mm removes no material: time is lost, or something stands\n"
        "elsewhere than the program thinks (work offset, length offset, stock)."},

@@ -31,6 +31,25 @@ machine::Color color_of(tool::PieceRole role) {
   return {};
 }
 
+// A block as a body: its outline at both ends of its reach along Y, and walls between them.
+TriangleMesh prism(const tool::Block& block) {
+  TriangleMesh out;
+  const auto n = static_cast<std::uint32_t>(block.outline.size());
+  for (const double y : {block.y_low, block.y_high})
+    for (const auto& [x, z] : block.outline) out.vertices.emplace_back(x, y, z);
+  // The outline goes from +X towards +Z, so seen from below it is counter-clockwise.
+  for (std::uint32_t i = 1; i + 1 < n; ++i) {
+    out.triangles.push_back({0, i, i + 1});
+    out.triangles.push_back({n, n + i + 1, n + i});
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t j = (i + 1) % n;
+    out.triangles.push_back({i, n + j, j});
+    out.triangles.push_back({i, n + i, n + j});
+  }
+  return out;
+}
+
 }  // namespace
 
 Scene::Scene(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools)
@@ -57,18 +76,26 @@ void Scene::load_tool(int number) {
   const tool::Tool* loaded = tool();
   if (!loaded) return;
   const machine::Spindle& spindle = machine_->spindle();
-  for (const tool::Piece& piece : loaded->pieces) {
+  Pose X_LF = translation(spindle.gauge);
+  X_LF.linear() = spindle.R_LF;
+  const auto add = [&](const std::string& name, tool::PieceRole role, TriangleMesh mesh,
+                       const Vec3& from_gauge) {
     machine::Body body;
-    body.name = "T" + std::to_string(number) + "/" + piece.name;
-    body.role = role_of(piece.role);
+    body.name = "T" + std::to_string(number) + "/" + name;
+    body.role = role_of(role);
     body.link = spindle.link;
-    body.mesh = std::make_shared<TriangleMesh>(revolve(piece.profile, tool_facet_tolerance));
-    Pose X_LF = translation(spindle.gauge);
-    X_LF.linear() = spindle.R_LF;
-    body.X_LB = X_LF * translation(Vec3(0, 0, -loaded->gauge_length));  // X_LF · X_FT
-    body.color = color_of(piece.role);
+    body.mesh = std::make_shared<TriangleMesh>(std::move(mesh));
+    body.X_LB = X_LF * translation(from_gauge);  // X_LF · X_FT
+    body.color = color_of(role);
     bodies_.push_back({body, std::make_shared<collide::CollisionMesh>(*body.mesh)});
-  }
+  };
+  for (const tool::Piece& piece : loaded->pieces)
+    add(piece.name, piece.role, revolve(piece.profile, tool_facet_tolerance),
+        Vec3(0, 0, -loaded->gauge_length));
+  // Seen from the controlled point, which is the offset away from the gauge point.
+  for (const tool::Block& block : loaded->blocks)
+    add(block.name, block.role, prism(block),
+        -Vec3(loaded->offset[Axis::x], loaded->offset[Axis::y], loaded->offset[Axis::z]));
 }
 
 }  // namespace aircut::sim

@@ -64,14 +64,19 @@ enum class Kind : unsigned char {
   self_overlap,
   tool_change_collision,
   overtravel,
+  overtravel_margin,
   unreachable,
   singular,
+  axis_unwind,
+  feed_not_reached,
   sync_limit,
   rapid_cut,
   spindle_stopped_cut,
   spindle_direction_cut,
   no_tool_cut,
   plunge_not_center_cutting,
+  engagement_limit,
+  loose_piece,
   air_cut,
   gouge,
   gouge_live,
@@ -114,7 +119,8 @@ struct Finding {
   std::optional<double> depth_bound;  ///< mm
   std::vector<Vec3> points;           ///< machine (bed) frame
   Vec3 normal = Vec3::Zero();
-  std::string joint;  ///< travel kinds
+  std::string joint;     ///< travel kinds
+  std::string quantity;  ///< what `value` and `limit` are of, where a kind has several
   std::optional<double> value, limit;
   std::string unit;
   bool unresolved = false;
@@ -141,8 +147,9 @@ class Findings {
   std::vector<Finding> finish();
 
  private:
-  using Key = std::tuple<Kind, std::string, std::string, std::string>;  ///< kind, bodies, joint
-  static Key key_of(const Finding& f) { return {f.kind, f.body_a, f.body_b, f.joint}; }
+  /// Kind, bodies, joint, quantity.
+  using Key = std::tuple<Kind, std::string, std::string, std::string, std::string>;
+  static Key key_of(const Finding& f) { return {f.kind, f.body_a, f.body_b, f.joint, f.quantity}; }
 
   std::size_t keep_;
   std::size_t dropped_ = 0;
@@ -235,8 +242,14 @@ struct CheckOptions {
   std::size_t detailed = 100;  ///< collisions whose depth is worked out; the others have none
 };
 std::unique_ptr<Check> make_travel_check();
+/// Rotary joints that turn back or wind up.
+std::unique_ptr<Check> make_unwind_check();
+/// Feed moves that stay far below their F.
+std::unique_ptr<Check> make_feed_check();
 std::unique_ptr<Check> make_collision_check(const CheckOptions& options);
 
+/// "G54" for 1 … "G59.3" for 9, "G54.1 P7" for 107.
+std::string work_system_name(int system);
 /// Fields of a finding that follow from the step: place, tool, motion kind, feed, joints at t.
 Finding finding_at(Kind kind, const Step& step, double t);
 /// Fraction of the block's path that is done at program time t.

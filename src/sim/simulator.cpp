@@ -3,13 +3,18 @@
 #include "sim/checks/cutting.h"
 #include "sim/checks/turning.h"
 #include "sim/sim.h"
+#include "tool/insert.h"
 
 namespace aircut::sim {
 
 Simulator::Simulator(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools,
                      const JointVector& start, const CheckOptions& options)
     : scene_(std::move(machine), tools), joints_(start) {
-  if (options.limits) checks_.push_back(make_travel_check());
+  if (options.limits) {
+    checks_.push_back(make_travel_check());
+    checks_.push_back(make_unwind_check());
+    checks_.push_back(make_feed_check());
+  }
   if (options.collision) checks_.push_back(make_collision_check(options));
   if (options.cut && turns_the_work(scene_.machine())) {
     auto turning = std::make_unique<TurningCheck>(options);
@@ -90,11 +95,19 @@ void Simulator::step(const plan::Segment& segment) {
       f.message = "tool T" + std::to_string(tool) + " is not in the tool table";
       f.remedy = "add it to the tool file, or name another file with --tools";
       findings_.add(f);
-    } else if (loaded && loaded->pieces.empty()) {
+    } else if (loaded && !tool::has_body(*loaded)) {
       Finding f = finding_at(Kind::not_checked, step, segment.t_end());
       f.message = "tool T" + std::to_string(tool) +
                   " has no geometry, so collisions of tool and holder can't be checked";
       f.remedy = "describe cutter, shank and holder in a tools.toml";
+      f.makes_unknown = true;
+      findings_.add(f);
+    }
+    if (loaded && !loaded->unknown.empty()) {
+      Finding f = finding_at(Kind::not_checked, step, segment.t_end());
+      f.message = "of tool T" + std::to_string(tool) + " the tool file does not tell " +
+                  loaded->unknown + ", so its collisions can't be checked";
+      f.remedy = "describe it whole in a tools.toml";
       f.makes_unknown = true;
       findings_.add(f);
     }

@@ -92,6 +92,41 @@ class Query {
     return out;
   }
 
+  /// Both ends of each stretch are seen from the tip when it passes them: along its way as far as
+  /// they lie along it, and beside it.
+  Engagement engagement(const Piece& piece) {
+    const Vec3 way = piece.end - piece.start;
+    const Vec3 plan = way - way.dot(piece.axis) * piece.axis;
+    const double length = plan.norm();
+    const bool sideways = length > 1e-9 && length > 1e-6 * way.norm();
+    const Vec3 ahead = sideways ? Vec3(plan / length) : Vec3::Zero();
+    const Vec3 left = piece.axis.cross(ahead);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    double to_left = -low, to_right = -low;
+    std::int64_t quanta = 0;
+    run(piece, [&](const Stretch& s) {
+      if (s.family == Family::z) quanta += s.to - s.from;
+      for (const std::int64_t at : {s.from, s.to}) {
+        const Vec3 seen = place(s.family, s.node, static_cast<double>(at)) - piece.start;
+        if (!sideways) continue;
+        const double t = std::clamp(seen.dot(ahead) / length, 0.0, 1.0);
+        const double height = (seen - t * way).dot(piece.axis);
+        low = std::min(low, height);
+        high = std::max(high, height);
+        to_left = std::max(to_left, seen.dot(left));
+        to_right = std::max(to_right, -seen.dot(left));
+      }
+      return true;
+    });
+    Engagement out;
+    out.volume = static_cast<double>(quanta) * lattice_.quantum() * lattice_.pitch * lattice_.pitch;
+    if (low > high) return out;
+    out.depth = high - low;
+    out.left = to_left;
+    out.right = to_right;
+    return out;
+  }
+
   /// stock.h, Stock::deepest.
   Touch deepest(const Piece& piece, const std::function<double(const Vec3&)>& depth_at,
                 double ignore, double at_surface) {
@@ -430,6 +465,11 @@ Expected<Touch> Stock::deepest(const Piece& piece,
                                double at_surface) const {
   if (auto ok = supported({&piece, 1}); !ok) return unexpected(ok.error());
   return Query(*impl_).deepest(piece, depth_at, ignore, at_surface);
+}
+
+Expected<Engagement> Stock::engagement(const Piece& piece) const {
+  if (auto ok = supported({&piece, 1}); !ok) return unexpected(ok.error());
+  return Query(*impl_).engagement(piece);
 }
 
 Expected<ContactAnswer> Stock::would_cut(const Piece& piece, double tolerance) const {

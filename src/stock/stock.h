@@ -104,6 +104,16 @@ struct Touch {
   Vec3 point = Vec3::Zero();  ///< middle of that longest material
 };
 
+/// How a piece is in the material: extents of what it would take, seen from the moving tool. They
+/// are measured at rays, so they are at most a pitch smaller than they are, never larger.
+struct Engagement {
+  double depth = 0;   ///< mm along the axis
+  double left = 0;    ///< mm to the left of the tip's way, seen from above the tool
+  double right = 0;   ///< mm to its right; both 0 when the tool goes along its axis
+  double volume = 0;  ///< mm³, of the Z rays
+  bool any() const { return volume > 0 || depth > 0 || left > -right; }
+};
+
 enum class Contact { clear, hit, unresolved };
 
 /// Answer of a body that must not touch the material (docs/stock.md).
@@ -118,6 +128,13 @@ struct ContactAnswer {
 enum class Facets {
   merged,   ///< flat stretches across an axis in as few as can be; the surface is the same
   lattice,  ///< a vertex in every cell: for colours by place
+};
+
+/// A part of the material that no ray joins to the rest.
+struct Separate {
+  std::int64_t quanta = 0;  ///< length of its Z rays, h/3840
+  double volume = 0;        ///< mm³, the same
+  Box3 box;                 ///< of its rays
 };
 
 struct MeshStatistics {
@@ -151,6 +168,9 @@ class Stock {
   /// to `tolerance` mm is no hit. Error: `stock_unsupported`.
   Expected<ContactAnswer> would_cut(const Piece& piece, double tolerance) const;
 
+  /// How the piece would be in the material if it cut now. Error: `stock_unsupported`.
+  Expected<Engagement> engagement(const Piece& piece) const;
+
   /// The largest value (mm, above `ignore`) that a function of the place has in what the piece
   /// would take, sampled along the rays at no more than a pitch; Touch has it as its depth. The
   /// function must not change by more than 1 mm in a millimetre and be at most `at_surface` where
@@ -172,6 +192,11 @@ class Stock {
   /// Material on the lattice's ray along `axis` (0, 1, 2) nearest to a point: intervals of that
   /// coordinate, ascending.
   std::vector<std::pair<double, double>> on_ray(int axis, const Vec3& point) const;
+
+  /// The pieces that the material is in, the largest first, those under `least` mm³ left out. Two Z
+  /// rays beside one another belong together where both have material at one height: a web that is
+  /// thinner than a pitch and lies between rays is not seen.
+  std::vector<Separate> pieces(double least) const;
 
   /// Volume inside mesh(), mm³: the best figure for the whole stock.
   double volume() const;

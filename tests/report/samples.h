@@ -164,6 +164,12 @@ class Samples {
     out.push_back(finding(Kind::spindle_direction_cut, 4, "the spindle turns backwards"));
     out.push_back(finding(Kind::no_tool_cut, 1, "there is no tool in the spindle"));
     out.push_back(finding(Kind::plunge_not_center_cutting, 5, "it can't cut at its centre"));
+    out.push_back(finding(Kind::overtravel_margin, 5, "`X` comes to 0.250 mm of its limit 200"));
+    out.push_back(finding(Kind::axis_unwind, 5, "`C` turns by 200° and the tool points as before"));
+    out.push_back(finding(Kind::feed_not_reached, 4, "the feed stays under half of F6000"));
+    out.push_back(finding(Kind::engagement_limit, 4, "axial depth of 5 mm, the limit is 4 mm"));
+    out.back().quantity = "axial depth";
+    out.push_back(finding(Kind::loose_piece, 4, "a piece of the stock comes loose"));
     out.push_back(finding(Kind::air_cut, 6, "this feed move takes no material"));
     out.push_back(finding(Kind::gouge_live, 5, "cutter `T4/cutter` goes into the part"));
     out.push_back(finding(Kind::gouge, 5, "the result is cut 0.200 mm into the part"));

@@ -15,6 +15,7 @@ using testing::RunResult;
 struct Shape {
   double flutes = 20, shank = 5;  ///< length and radius, mm
   bool center_cutting = true, left_hand = false;
+  tool::CuttingLimits limits = {};
 };
 
 tool::ToolTable end_mill(const Shape& shape = {}) {
@@ -25,6 +26,8 @@ tool::ToolTable end_mill(const Shape& shape = {}) {
   tool.flute_length = shape.flutes;
   tool.center_cutting = shape.center_cutting;
   tool.left_hand = shape.left_hand;
+  tool.teeth = 2;
+  tool.limits = shape.limits;
   tool.pieces = {
       {tool::PieceRole::cutter, "cutter", {{0, 0}, {5, 0}, {5, shape.flutes}}},
       {tool::PieceRole::shank, "shank", {{shape.shank, shape.flutes}, {shape.shank, 40}}},
@@ -183,6 +186,93 @@ TEST_F(Cutting, CutsArcsToTheirVolume) {
   const double area = M_PI * (17 * 17 - 7 * 7) + 2 * M_PI * (17 + 7) * 5;
   EXPECT_NEAR(r.summary.stock->initial_volume - r.summary.stock->volume, exact, 0.5 * h * area);
   EXPECT_EQ(r.verdict, Verdict::pass);
+}
+
+// ---- engagement_limit: a slot, or a pass over the block's edge ----
+
+TEST_F(Cutting, MeasuresTheDepthOfACut) {
+  const std::string slot = "G0 Z-85\nG1 X40\n";
+  const RunResult r = run(slot, {.limits = {.depth = 4.9}});
+  const Finding& f = r.only(Kind::engagement_limit);
+  EXPECT_EQ(f.severity, Severity::warning);
+  EXPECT_EQ(f.span.line, 6u);
+  EXPECT_EQ(f.quantity, "axial depth");
+  EXPECT_NEAR(*f.value, 5, 1e-3);
+  EXPECT_EQ(r.verdict, Verdict::pass);
+  EXPECT_EQ(run(slot, {.limits = {.depth = 5}}).count(Kind::engagement_limit), 0);
+  // A second pass a millimetre deeper has a depth of 1 mm.
+  EXPECT_EQ(run(slot + "G0 Z-70\nG0 X-50\nG0 Z-86\nG1 X40\n", {.limits = {.depth = 4.9}})
+                .count(Kind::engagement_limit),
+            1);
+}
+
+TEST_F(Cutting, MeasuresTheWidthAndAngleOfACut) {
+  // The block's edge is at Y -20: with the axis at Y -22 the cutter is 3 mm in, of a radius of 5:
+  // from 90° to asin(2/5) of its circumference.
+  const std::string edge = "G0 Y-22\nG0 Z-85\nG1 X40\n";
+  const double angle = M_PI / 2 - std::asin(2.0 / 5);
+  const RunResult r = run(edge, {.limits = {.width = 2.9, .angle = angle - 0.05}});
+  ASSERT_EQ(r.count(Kind::engagement_limit), 2);
+  for (const Finding& f : r.findings) {
+    if (f.kind != Kind::engagement_limit) continue;
+    if (f.quantity == "radial width") {
+      EXPECT_NEAR(*f.value, 3, h);
+    } else {
+      EXPECT_NEAR(*f.value, angle * 180 / M_PI, 3.5);
+    }
+  }
+  EXPECT_EQ(
+      run(edge, {.limits = {.width = 3.001, .angle = angle + 0.001}}).count(Kind::engagement_limit),
+      0);
+  // A slot is as wide as the cutter and half of it is in.
+  EXPECT_EQ(run("G0 Z-85\nG1 X40\n", {.limits = {.width = 10, .angle = M_PI}})
+                .count(Kind::engagement_limit),
+            0);
+  EXPECT_EQ(run("G0 Z-85\nG1 X40\n", {.limits = {.width = 9.7, .angle = 3}})
+                .count(Kind::engagement_limit),
+            2);
+}
+
+TEST_F(Cutting, MeasuresTheRemovalRateAndTheChip) {
+  // 10 mm × 5 mm × 1000 mm/min = 50 cm³/min where the whole cutter is in; 0.5 mm per tooth.
+  const std::string slot = "G0 Z-85\nG1 X-20\nG1 X20\nG1 X40\n";
+  const RunResult r = run(slot, {.limits = {.removal = 49.0 * 1000 / 60, .chip_load = 0.49}});
+  int rates = 0;
+  for (const Finding& f : r.findings) {
+    if (f.quantity == "chip load") {
+      EXPECT_NEAR(*f.value, 0.5, 1e-3);
+    }
+    if (f.quantity != "removal rate") continue;
+    ++rates;
+    EXPECT_EQ(f.span.line, 7u);
+    EXPECT_NEAR(*f.value, 50, 0.5);
+  }
+  EXPECT_EQ(rates, 1);
+  EXPECT_EQ(run(slot, {.limits = {.removal = 51.0 * 1000 / 60, .chip_load = 0.5}})
+                .count(Kind::engagement_limit),
+            0);
+  // In the air nothing is asked of the tool.
+  EXPECT_EQ(run("G0 Z-75\nG1 X40\n", {.limits = {.chip_load = 0.1}}).count(Kind::engagement_limit),
+            0);
+}
+
+// ---- loose_piece ----
+
+TEST_F(Cutting, FindsThePieceThatIsCutOff) {
+  // Sawn through at X 15 in two layers: 10 mm of the 60 go, the piece of 10 x 40 x 20 is the small
+  // one.
+  const std::string saw = "G0 X15 Y-30\nG0 Z-90\nG1 Y30\nG0 Z-70\nG0 Y-30\nG0 Z-100\n";
+  const RunResult r = run(saw + "G1 Y30\nG0 Z-70\n");
+  const Finding& f = r.only(Kind::loose_piece);
+  EXPECT_EQ(f.severity, Severity::warning);
+  EXPECT_EQ(f.span.line, 11u);
+  EXPECT_NEAR(*f.value, 10 * 40 * 20, 2 * h * 40 * 20);
+  EXPECT_EQ(f.tool, 1);
+  EXPECT_EQ(r.verdict, Verdict::pass);
+  // A skin of 0.05 mm holds it, and so does a tab between the ends of two cuts.
+  const std::string skin = "G0 X15 Y-30\nG0 Z-90\nG1 Y30\nG0 Z-70\nG0 Y-30\nG0 Z-99.95\n";
+  EXPECT_EQ(run(skin + "G1 Y30\nG0 Z-70\n").count(Kind::loose_piece), 0);
+  EXPECT_EQ(run(saw + "G1 Y10\nG0 Z-70\n").count(Kind::loose_piece), 0);
 }
 
 TEST_F(Cutting, SaysSoWhenTheToolHasNoShape) {

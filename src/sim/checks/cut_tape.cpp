@@ -22,6 +22,12 @@ Diagnostic disk_error(const char* what) {
 
 using Cutters = std::vector<std::unique_ptr<stock::CutterProfile>>;
 
+Vec3 vec(const double* v) { return {v[0], v[1], v[2]}; }
+
+stock::Piece piece_of(const Record& record, const Cutters& cutters) {
+  return {cutters[record.cutter].get(), vec(record.start), vec(record.end), vec(record.axis), 0};
+}
+
 class Player final : public StockHistory {
  public:
   Player(std::shared_ptr<std::FILE> file, std::shared_ptr<const Cutters> cutters,
@@ -41,8 +47,7 @@ class Player final : public StockHistory {
       return {};
     };
     while (more_ && next_.t <= t) {
-      pieces.push_back(
-          {(*cutters_)[next_.cutter].get(), vec(next_.start), vec(next_.end), vec(next_.axis), 0});
+      pieces.push_back(piece_of(next_, *cutters_));
       if (pieces.size() == 4096)
         if (auto done = cut(); !done) return unexpected(done.error());
       more_ = read();
@@ -54,7 +59,6 @@ class Player final : public StockHistory {
   }
 
  private:
-  static Vec3 vec(const double* v) { return {v[0], v[1], v[2]}; }
   bool read() { return std::fread(&next_, sizeof next_, 1, file_.get()) == 1; }
 
   std::shared_ptr<std::FILE> file_;
@@ -123,6 +127,29 @@ Expected<void> CutTape::add(const stock::Piece& piece, double t) {
   record.cutter = static_cast<std::uint64_t>(cutters_->rend() - at - 1);
   if (std::fwrite(&record, sizeof record, 1, file_.get()) == 1) return {};
   return unexpected(disk_error("can't write a temporary file"));
+}
+
+Expected<stock::Stock> CutTape::stock_after(const machine::RawStock& raw, double pitch,
+                                            std::uint64_t pieces) {
+  auto stock = raw.saved ? stock::Stock::load(raw.saved->content(), raw.saved->name())
+                         : make_stock(raw, pitch);
+  if (!stock) return stock;
+  if (std::fflush(file_.get()) != 0 || std::fseek(file_.get(), 0, SEEK_SET) != 0)
+    return unexpected(disk_error("can't read a temporary file"));
+  std::vector<stock::Piece> batch;
+  Record record;
+  for (std::uint64_t i = 0; i < pieces; ++i) {
+    if (std::fread(&record, sizeof record, 1, file_.get()) != 1)
+      return unexpected(disk_error("can't read a temporary file"));
+    batch.push_back(piece_of(record, *cutters_));
+    if (batch.size() < 4096 && i + 1 < pieces) continue;
+    if (auto done = stock->cut(batch); !done) return unexpected(done.error());
+    batch.clear();
+  }
+  // What is added next goes to the end again.
+  if (std::fseek(file_.get(), 0, SEEK_END) != 0)
+    return unexpected(disk_error("can't read a temporary file"));
+  return stock;
 }
 
 Expected<std::unique_ptr<StockHistory>> CutTape::play(const machine::RawStock& raw, double steps) {

@@ -26,6 +26,9 @@ class CutTape {
   const stock::CutterProfile* keep(const stock::CutterProfile& cutter);
   /// `cutter` is a pointer that keep() gave. Error kind `output_failed`.
   Expected<void> add(const stock::Piece& piece, double t);
+  /// The stock, on a lattice of this pitch, after the first `pieces` of the tape.
+  Expected<stock::Stock> stock_after(const machine::RawStock& raw, double pitch,
+                                     std::uint64_t pieces);
   /// Plays the tape from its beginning, on a lattice that is fine enough for pictures.
   Expected<std::unique_ptr<StockHistory>> play(const machine::RawStock& raw, double steps);
 

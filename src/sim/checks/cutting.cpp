@@ -75,11 +75,11 @@ void CuttingCheck::start(const Scene& scene, const JointVector& joints, Findings
   const double pitch = stock_->pitch();
   initial_volume_ = volume_of(*raw_);
   tolerance_ = std::min(pitch / 10, 0.01);
-  if (options_.keep_cuts) {
-    auto tape = CutTape::make();
-    if (!tape) return give_up(tape.error().message);
-    tape_ = std::move(*tape);
-  }
+  auto tape = CutTape::make();
+  if (!tape) return give_up(tape.error().message);
+  tape_ = std::move(*tape);
+  loose_.start(*stock_);
+  scene_ = &scene;
   if (const auto& design = scene.machine().part()) {
     auto watch = PartWatch::make(*design, *raw_, pitch, out);
     if (watch)
@@ -98,6 +98,7 @@ void CuttingCheck::read_tool(const Scene& scene) {
   const tool::Tool* tool = scene.tool();
   no_tool_ = tool == nullptr;
   tool_known_ = no_tool_ || !tool->pieces.empty();
+  engagement_.read_tool(nullptr, 0, 0);
   if (no_tool_) {
     // Only whether the programmed point enters the stock: a pin, a millimetre wide.
     const auto pin = *stock::CutterProfile::flat(1, 1);
@@ -125,11 +126,13 @@ void CuttingCheck::read_tool(const Scene& scene) {
         .push_back({"T" + std::to_string(tool->number) + "/" + piece.name, role, *profile,
                     profile->grown(rough + stock_->pitch() / 2)});
   }
+  engagement_.read_tool(tool, cutter_reach_.radius, stock_->pitch());
 }
 
 void CuttingCheck::scene_changed(const Step& step, const JointVector&, Findings& out) {
   if (!stock()) return;
   flush();
+  look_for_loose(step.scene, out);
   tell_given_up(step, out);
   read_tool(step.scene);
 }
@@ -177,8 +180,16 @@ stock::Touch CuttingCheck::touch_of(const stock::Piece& piece) {
 
 void CuttingCheck::hold(const Step& step, const Solid& cutter, const StraightMove& move) {
   if (part_) look_at_part(step, cutter, move);
+  if (engagement_.on()) {
+    flush();
+    if (!stock()) return;
+    const auto in = stock_->engagement(piece(cutter, move));
+    if (!in) return give_up(in.error().message);
+    engagement_.look(step, move, *in, cutter.name);
+  }
   batch_.push_back(piece(cutter, move));
-  batch_times_.push_back(tape_ ? time_at(step, move.s1) : 0);
+  batch_times_.push_back(time_at(step, move.s1));
+  loose_.add(step, batch_.back());
   if (batch_.size() >= batch_size) flush();
 }
 
@@ -187,18 +198,23 @@ void CuttingCheck::flush() {
   const auto cut = stock_->cut(batch_);
   if (!cut) return give_up(cut.error().message);
   for (const stock::Removal& removal : *cut) removed_ += removal.quanta;
-  if (tape_) {
-    for (std::size_t i = 0; i < batch_.size(); ++i) {
-      stock::Piece piece = batch_[i];
-      const stock::CutterProfile*& kept = taped_[piece.cutter];
-      if (!kept) kept = tape_->keep(*piece.cutter);
-      piece.cutter = kept;
-      if (auto added = tape_->add(piece, batch_times_[i]); !added)
-        return give_up(added.error().message);
-    }
+  for (std::size_t i = 0; i < batch_.size(); ++i) {
+    stock::Piece piece = batch_[i];
+    const stock::CutterProfile*& kept = taped_[piece.cutter];
+    if (!kept) kept = tape_->keep(*piece.cutter);
+    piece.cutter = kept;
+    if (auto added = tape_->add(piece, batch_times_[i]); !added)
+      return give_up(added.error().message);
   }
   batch_.clear();
   batch_times_.clear();
+}
+
+void CuttingCheck::look_for_loose(const Scene& scene, Findings& out) {
+  flush();
+  if (!stock()) return;
+  if (auto done = loose_.look(*stock_, *raw_, *tape_, scene, out); !done)
+    give_up(done.error().message);
 }
 
 // ---- the rules ---------------------------------------------------------------------------------
@@ -229,6 +245,7 @@ void CuttingCheck::step(const Step& step, Findings& out) {
   rows_.clear();
   look_at(step, out);
   rows_.hand_over(out);
+  if (loose_.due()) look_for_loose(step.scene, out);
 }
 
 // Where the tool turns, shank and holder are far from the middle of a turn and would need many
@@ -385,7 +402,8 @@ void CuttingCheck::compare_with_part(Summary& summary, Findings& out) {
 
 void CuttingCheck::finish(Summary& summary, Findings& out) {
   if (!raw_) return;
-  if (stock()) flush();
+  engagement_.finish(out);
+  if (stock()) look_for_loose(*scene_, out);
   if (stock()) compare_with_part(summary, out);
   if (!stock()) {
     if (!told_) summary.unchecked.push_back("what the cutter takes from the stock: " + given_up_);

@@ -21,6 +21,8 @@
 
 #include "sim/checks/cut_rows.h"
 #include "sim/checks/cut_tape.h"
+#include "sim/checks/engagement.h"
+#include "sim/checks/loose.h"
 #include "sim/checks/part_watch.h"
 #include "sim/checks/tool_way.h"
 #include "sim/sim.h"
@@ -41,7 +43,7 @@ class CuttingCheck final : public Check {
   const stock::Stock* stock() const;
   /// The part to be made; null when there is none or it can't be compared.
   const stock::Part* part() const { return part_ && stock() ? part_->part() : nullptr; }
-  /// Null when the cuts were not kept.
+  /// Null when there is no stock.
   CutTape* tape() { return tape_ ? &*tape_ : nullptr; }
 
  private:
@@ -72,6 +74,7 @@ class CuttingCheck final : public Check {
               const Vec3& point, const std::function<bool(const stock::Piece&)>& enough);
   void look_at_part(const Step& step, const Solid& cutter, const StraightMove& move);
   void compare_with_part(Summary& summary, Findings& out);
+  void look_for_loose(const Scene& scene, Findings& out);
   void give_up(const std::string& why);
   void tell_given_up(const Step& step, Findings& out);
 
@@ -80,8 +83,11 @@ class CuttingCheck final : public Check {
   std::optional<stock::Stock> stock_;
   std::optional<CutTape> tape_;
   std::optional<PartWatch> part_;
+  EngagementWatch engagement_;
+  LoosePieces loose_;
   machine::JointVector joints_;  ///< at the end of the last step
   std::shared_ptr<const machine::Machine> machine_;
+  const Scene* scene_ = nullptr;               ///< of the run
   double t_end_ = 0;                           ///< of the last step, s
   double initial_volume_ = 0, tolerance_ = 0;  ///< mm³, mm
   std::int64_t removed_ = 0;                   ///< length of material taken on Z rays, quanta

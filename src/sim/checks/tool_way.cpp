@@ -118,6 +118,7 @@ bool turning_axis(const Step& step, const machine::RawStock& stock, const Reach&
 
 double time_at(const Step& step, double s) {
   const plan::Segment& segment = step.segment;
+  if (segment.profile.knots.empty() || s >= segment.profile.knots.back().s) return segment.t_end();
   double low = 0, high = segment.duration();
   for (int i = 0; i < 40 && high - low > 1e-9; ++i) {
     const double middle = 0.5 * (low + high);

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "sim/sim.h"
+#include "sim/checks/worst_rows.h"
 
 namespace aircut::sim {
 
@@ -21,6 +21,19 @@ namespace {
 
 constexpr double resolution = 1e-6;        // mm or rad: a joint may pass its limit by this much
 constexpr double extreme_accuracy = 0.01;  // mm or rad·(π/180): of the reported extremes
+constexpr double margin_to_limit = 1;      // mm or degrees, overtravel_margin
+constexpr double at_rest = 1e-6;           // mm or rad: bounds of joints that rest may be so large
+constexpr std::size_t most_margin_rows = 100;
+
+double unit_of(const machine::Joint& joint) {
+  return joint.kind == machine::JointKind::rotary ? M_PI / 180 : 1;
+}
+
+// How far a joint may come to its limit; joints with hardly any range have no margin.
+double margin_of(const machine::Joint& joint) {
+  const double margin = margin_to_limit * unit_of(joint);
+  return joint.max - joint.min > 4 * margin ? margin : 0;
+}
 
 class TravelCheck final : public Check {
  public:
@@ -29,11 +42,14 @@ class TravelCheck final : public Check {
     high_ = low_;
     names_.clear();
     rotary_.clear();
+    near_.clear();
     for (int j = 0; j < joints.size(); ++j) {
       low_[static_cast<std::size_t>(j)] = high_[static_cast<std::size_t>(j)] = joints[j];
       const machine::Joint& joint = scene.machine().joint(machine::JointId{j});
       names_.push_back(joint.name);
       rotary_.push_back(joint.kind == machine::JointKind::rotary);
+      near_.push_back(
+          {joints[j]<joint.min + margin_of(joint), joints[j]> joint.max - margin_of(joint)});
     }
   }
 
@@ -55,6 +71,11 @@ class TravelCheck final : public Check {
       const double slack = extreme_accuracy * (rotary_[i] ? M_PI / 180 : 1);
       if (middle && bounded) {
         const double q = (*middle)[j];
+        const bool rests = travel_[i] <= at_rest;
+        const bool far_off = q + travel_[i] <= joint.max - margin_of(joint) &&
+                             q - travel_[i] >= joint.min + margin_of(joint);
+        if (!rests && far_off) near_[i] = {false, false};
+        if (!rests && !far_off) look_at_margin(step, machine::JointId{j});
         // Nothing new: inside the limits, and inside what was reached before.
         if (q + travel_[i] <= std::min(joint.max, high_[i] + slack) &&
             q - travel_[i] >= std::max(joint.min, low_[i] - slack))
@@ -81,7 +102,8 @@ class TravelCheck final : public Check {
     }
   }
 
-  void finish(Summary& summary, Findings&) override {
+  void finish(Summary& summary, Findings& out) override {
+    margin_rows_.hand_over("places", out);
     for (std::size_t j = 0; j < low_.size(); ++j)
       summary.joints.push_back({names_[j], rotary_[j], low_[j], high_[j]});
   }
@@ -93,6 +115,45 @@ class TravelCheck final : public Check {
         JointTrack track(step.motion, machine::JointId{j}, sign);
         report_passed_limit(step, machine::JointId{j}, sign, track, out);
       }
+  }
+
+  // A joint that comes into the margin before its limit, and does not pass the limit.
+  void look_at_margin(const Step& step, machine::JointId id) {
+    const machine::Joint& joint = step.motion.machine().joint(id);
+    const double unit = unit_of(joint);
+    const double t0 = step.motion.t0(), t1 = step.motion.t1();
+    for (const double sign : {1.0, -1.0}) {
+      bool& near = near_[static_cast<std::size_t>(machine::index(id))][sign > 0 ? 1 : 0];
+      const double limit = sign > 0 ? joint.max : joint.min;
+      if (!std::isfinite(limit) || margin_of(joint) == 0) continue;
+      JointTrack track(step.motion, id, sign);
+      const double begins = sign * limit - margin_of(joint) + resolution;
+      Extreme most{t0, begins};
+      search_maximum(track, t0, t1, resolution, most);
+      const auto at_end = track.value(t1);
+      const bool was_near = near;
+      near = at_end && *at_end > begins;
+      const bool home = std::abs(sign * most.value - joint.home) < extreme_accuracy * unit;
+      if (was_near || home || most.value <= begins || most.value > sign * limit + resolution)
+        continue;
+      const double left = sign * limit - most.value;
+      if (!margin_rows_.wants(-left / unit)) continue;
+      const auto first = first_above(track, t0, t1, begins);
+      Finding f = finding_at(Kind::overtravel_margin, step, first.value_or(most.t));
+      f.t_worst = most.t;
+      f.t_end = t1;
+      if (const auto joints = step.motion.at(most.t)) f.joints_worst = *joints;
+      f.u_first = fraction_at(step, f.t_first);
+      f.u_end = fraction_at(step, f.t_end);
+      f.joint = joint.name;
+      f.unit = joint.kind == machine::JointKind::rotary ? "deg" : "mm";
+      f.value = sign * most.value / unit;
+      f.limit = limit / unit;
+      f.message = "`" + joint.name + "` comes to " + fixed(std::max(0.0, left / unit), 3) +
+                  (f.unit == "mm" ? " mm" : "°") + " of its limit " + shortest(*f.limit);
+      f.remedy = "move the work offset, or clamp the part elsewhere";
+      margin_rows_.add(-left / unit, std::move(f));
+    }
   }
 
   static void report_passed_limit(const Step& step, machine::JointId id, double sign,
@@ -147,6 +208,9 @@ class TravelCheck final : public Check {
   std::vector<std::string> names_;
   std::vector<bool> rotary_;
   std::vector<double> travel_;
+  std::vector<std::array<bool, 2>>
+      near_;  ///< each joint is in the margin of its lower, upper limit
+  WorstRows margin_rows_{most_margin_rows};
 };
 
 }  // namespace

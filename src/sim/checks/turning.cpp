@@ -8,6 +8,7 @@
 
 #include "sim/checks/cut_tape.h"
 #include "sim/checks/pairs.h"
+#include "tool/insert.h"
 
 namespace aircut::sim {
 
@@ -16,11 +17,6 @@ namespace {
 constexpr double off_centre = 1e-3;  // mm: height of a tool over the spindle's axis
 constexpr double finer = 5;          // than the lattice of a milled stock: a section is cheap
 constexpr double facets = 0.02;      // mm, of part.stl
-
-// Where the middle of an insert's nose is, seen from the controlled point, in nose radii: X, Z.
-// Orientation 1 to 9 of the tool table.
-constexpr double nose_of[10][2] = {{0, 0},  {1, -1}, {1, 1}, {-1, 1}, {-1, -1},
-                                   {0, -1}, {1, 0},  {0, 1}, {-1, 0}, {0, 0}};
 
 bool takes(const stock::TurningTouch& touch) { return takes_material(touch.depth, touch.volume); }
 
@@ -194,30 +190,21 @@ void TurningCheck::scene_changed(const Step& step, const JointVector&, Findings&
   tell_given_up(step, out);
 }
 
-// An insert: nose and edges. The edges look along (sin a, cos a) in (X, Z), a being the angle of
-// the table, and touch the nose from outside.
+// An insert, its nose and edges, and what holds it.
 std::string TurningCheck::read_insert(const tool::Tool& tool) {
-  const double radius = tool.diameter / 2, edge = tool.flute_length;
-  const std::string name = "tool T" + std::to_string(tool.number);
-  if (!(edge > 0)) return name + " has no edge_length, so its insert has no shape";
-  if (tool.orientation < 1 || tool.orientation > 9)
-    return name + " has no orientation, so it is not known where its nose is";
-  const double x = nose_of[tool.orientation][0] * radius, z = nose_of[tool.orientation][1] * radius;
+  const std::string name = "T" + std::to_string(tool.number);
+  const auto insert = tool::insert_of(tool);
+  if (!insert) return "tool " + name + " has " + insert.error();
   stock::TurningSection section;
-  section.discs.push_back({x, z, radius});
-  const double middle = (tool.front_angle + tool.back_angle) / 2;
-  const double wedge = std::abs(tool.front_angle - tool.back_angle);
-  if (!(wedge > 0 && wedge < M_PI)) return name + " needs a front and a back angle of its edges";
-  if (tool.orientation < 9 && std::sin(middle) * x + std::cos(middle) * z < -1e-9)
-    return name + " has edges on the other side of its nose than its orientation says";
-  for (const double angle : {tool.front_angle, tool.back_angle}) {
-    // Outwards from the wedge.
-    const double out = angle < middle ? -1 : 1;
-    section.discs.push_back({x + edge * std::sin(angle) + out * radius * std::cos(angle),
-                             z + edge * std::cos(angle) - out * radius * std::sin(angle), 0});
+  section.discs.push_back({insert->nose[0], insert->nose[1], insert->radius});
+  for (const auto& [x, z] : insert->ends) section.discs.push_back({x, z, 0});
+  cutters_.push_back({name + "/insert", machine::Role::cutter, {std::move(section)}});
+  for (const tool::Block& block : tool.blocks) {
+    if (block.role == tool::PieceRole::cutter) continue;
+    const auto role =
+        block.role == tool::PieceRole::shank ? machine::Role::shank : machine::Role::holder;
+    others_.push_back({name + "/" + block.name, role, {}, {block}});
   }
-  cutters_.push_back(
-      {"T" + std::to_string(tool.number) + "/insert", machine::Role::cutter, {std::move(section)}});
   tip_ = -tool.offset[Axis::x] * across_ - tool.offset[Axis::z] * Vec3::UnitZ();
   return {};
 }
@@ -279,6 +266,30 @@ stock::TurningTouch TurningCheck::touch(const Solid& solid, const StraightMove& 
     if (here.depth > out.depth) out = here;
     out.volume = volume;
   }
+  for (const tool::Block& block : solid.blocks) {
+    const stock::TurningSection section = swept(solid, block, move, part);
+    const stock::TurningTouch here = stock_->touch({&section, 0, 0, 0, 0});
+    const double volume = out.volume + here.volume;
+    if (here.depth > out.depth) out = here;
+    out.volume = volume;
+  }
+  return out;
+}
+
+// A corner that lies beside the half plane by y comes to the radius √(x² + y²). So a block sweeps
+// radii from those of its part in the half plane to those of its far edges; the hull of both, at
+// both ends of the move, holds all of it, since √(x² + y²) is convex in x.
+stock::TurningSection TurningCheck::swept(const Solid& solid, const tool::Block& block,
+                                          const StraightMove& move, double part) const {
+  const double y = std::max(std::abs(block.y_low), std::abs(block.y_high));
+  const stock::TurningSection none;
+  const stock::TurningMove way = in_plane(none, move, part);
+  stock::TurningSection out;
+  for (const auto& [x, z] : block.outline)
+    for (const auto& [r, at] : {std::pair{way.r0, way.z0}, std::pair{way.r1, way.z1}}) {
+      out.discs.push_back({x + r, z + at, solid.wider});
+      out.discs.push_back({std::copysign(std::hypot(x + r, y), x + r), z + at, solid.wider});
+    }
   return out;
 }
 
@@ -372,6 +383,7 @@ bool TurningCheck::ask(const Step& step, const StraightMove& move, const Solid& 
   Solid wide = solid;
   for (stock::TurningSection& section : wide.sections)
     for (auto& disc : section.discs) disc.radius += stock_->pitch() / 2;
+  wide.wider += stock_->pitch() / 2;
   if (touch(wide, move).depth == 0) return true;
   const stock::TurningTouch here = touch(solid, move);
   const bool hit = takes(here);

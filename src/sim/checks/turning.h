@@ -42,6 +42,8 @@ class TurningCheck final : public Check {
     std::string name;
     machine::Role role;
     std::vector<stock::TurningSection> sections;
+    std::vector<tool::Block> blocks = {};
+    double wider = 0;  ///< mm, of the blocks on all sides
   };
   /// Why the set-up or the tool can't be turned with; empty: it can.
   std::string read_frame(const machine::Machine& machine);
@@ -54,6 +56,9 @@ class TurningCheck final : public Check {
   stock::TurningMove in_plane(const stock::TurningSection& section, const StraightMove& move,
                               double part = 1) const;
   stock::TurningTouch touch(const Solid& solid, const StraightMove& move, double part = 1) const;
+  /// What a block sweeps in the half plane as the work turns.
+  stock::TurningSection swept(const Solid& solid, const tool::Block& block,
+                              const StraightMove& move, double part) const;
   double cut(const Step& step, const Solid& solid, const StraightMove& move);
   Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
               const stock::TurningTouch& touch) const;
