@@ -2,6 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <ctime>
+#include <span>
 
 #include "stock/stock.h"
 
@@ -66,6 +68,70 @@ void mesh(benchmark::State& state) {
   state.counters["triangles"] = static_cast<double>(triangles);
 }
 
+// A surface of waves, 100 x 100 mm, as a finishing program has it: rows of 0.1 mm moves, half a
+// millimetre apart.
+void surface(benchmark::State& state) {
+  const double pitch = static_cast<double>(state.range(0)) / 1000;
+  const auto cutter = *stock::CutterProfile::ball(10, 30);
+  const auto place = [](int row, int i) {
+    const double x = (row % 2 == 0 ? i : 1000 - i) * 0.1 - 50, y = row * 0.5 - 50;
+    return Vec3(x, y, -6 + 3 * std::sin(x / 8) * std::cos(y / 9));
+  };
+  std::vector<stock::Piece> pieces;
+  for (int row = 0; row < 200; ++row)
+    for (int i = 0; i < 1000; ++i)
+      pieces.push_back({.cutter = &cutter,
+                        .start = place(row, i),
+                        .end = place(row, i + 1),
+                        .move = static_cast<std::uint32_t>(pieces.size())});
+  for (auto _ : state) {
+    auto material = stock::Stock::make(stock::Box{{-50, -50, -20}, {50, 50, 0}}, pitch);
+    if (!material->cut(pieces)) state.SkipWithError("refused");
+    state.counters["MB"] = static_cast<double>(material->bytes()) / 1e6;
+  }
+}
+
+// The pocket with a tool that leans by up to 15°, three pieces a move, as a turn is cut.
+void tilted(benchmark::State& state) {
+  const double pitch = static_cast<double>(state.range(0)) / 1000;
+  const auto cutter = *stock::CutterProfile::flat(10, 30);
+  constexpr int parts = 3;
+  std::vector<stock::Piece> pieces;
+  for (const stock::Piece& whole : pocket(cutter, 50000))
+    for (int k = 0; k < parts; ++k) {
+      stock::Piece piece = whole;
+      const Vec3 way = whole.end - whole.start;
+      piece.start = whole.start + way * k / parts;
+      piece.end = whole.start + way * (k + 1) / parts;
+      const double angle = 15 * M_PI / 180 * std::sin(0.05 * piece.start.x());
+      piece.axis = Vec3(std::sin(angle), 0, std::cos(angle));
+      pieces.push_back(piece);
+    }
+  for (auto _ : state) {
+    auto material = stock::Stock::make(stock::Box{{-50, -50, -20}, {50, 50, 0}}, pitch);
+    if (!material->cut(pieces)) state.SkipWithError("refused");
+    state.counters["MB"] = static_cast<double>(material->bytes()) / 1e6;
+  }
+}
+
+// A million moves: seconds of the first and of the last hundred thousand.
+void history(benchmark::State& state) {
+  const auto cutter = *stock::CutterProfile::flat(10, 400);
+  const auto pieces = pocket(cutter, 1'000'000);
+  constexpr std::size_t part = 100'000;
+  for (auto _ : state) {
+    auto material = stock::Stock::make(stock::Box{{-50, -50, -320}, {50, 50, 0}}, 0.25);
+    for (std::size_t from = 0; from < pieces.size(); from += part) {
+      const std::clock_t begin = std::clock();
+      if (!material->cut(std::span(pieces).subspan(from, part))) state.SkipWithError("refused");
+      const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      if (from == 0) state.counters["first_s"] = seconds;
+      if (from + part >= pieces.size()) state.counters["last_s"] = seconds;
+    }
+    state.counters["MB"] = static_cast<double>(material->bytes()) / 1e6;
+  }
+}
+
 void flat(benchmark::State& state) { cut(state, *stock::CutterProfile::flat(10, 30)); }
 void ball(benchmark::State& state) { cut(state, *stock::CutterProfile::ball(10, 30)); }
 void bull(benchmark::State& state) { cut(state, *stock::CutterProfile::bull(10, 1, 30)); }
@@ -74,6 +140,9 @@ void bull(benchmark::State& state) { cut(state, *stock::CutterProfile::bull(10, 
 BENCHMARK(flat)->Arg(250)->Arg(100)->Arg(50)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(ball)->Arg(250)->Arg(100)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(bull)->Arg(250)->Arg(100)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(surface)->Arg(250)->Arg(100)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(tilted)->Arg(250)->Unit(benchmark::kMillisecond)->Iterations(1);
+BENCHMARK(history)->Unit(benchmark::kMillisecond)->Iterations(1);
 BENCHMARK(mesh)->Arg(250)->Unit(benchmark::kMillisecond)->Iterations(1);
 
 }  // namespace

@@ -45,9 +45,8 @@ const std::vector<KindText>& finding_kinds() {
       {"overtravel_margin", "a joint comes close to its limit",
        "A joint comes nearer than 1 mm or 1° to the end of its range without passing it: a small\n"
        "change of the offset or of the tool's length and the move stops. Told where a joint comes\n"
-       "into that margin, not while it stays there, and not for the joint's home position. At "
-       "most\n"
-       "100 places are listed, the nearest ones.\n"
+       "into that margin, not while it stays there, and not at the end at which it has its home.\n"
+       "At most 100 places are listed, the nearest ones.\n"
        "Remedy: move the work offset, or clamp the part elsewhere."},
       {"unreachable", "the machine has no joint values for a pose on the path",
        "The inverse kinematics has no solution somewhere on the path (a rod too short, an arm "

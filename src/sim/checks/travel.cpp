@@ -125,7 +125,9 @@ class TravelCheck final : public Check {
     for (const double sign : {1.0, -1.0}) {
       bool& near = near_[static_cast<std::size_t>(machine::index(id))][sign > 0 ? 1 : 0];
       const double limit = sign > 0 ? joint.max : joint.min;
-      if (!std::isfinite(limit) || margin_of(joint) == 0) continue;
+      // Many machines have their home at the end of an axis, and every retract goes there.
+      const bool home = sign * (limit - joint.home) < margin_of(joint);
+      if (!std::isfinite(limit) || margin_of(joint) == 0 || home) continue;
       JointTrack track(step.motion, id, sign);
       const double begins = sign * limit - margin_of(joint) + resolution;
       Extreme most{t0, begins};
@@ -133,9 +135,7 @@ class TravelCheck final : public Check {
       const auto at_end = track.value(t1);
       const bool was_near = near;
       near = at_end && *at_end > begins;
-      const bool home = std::abs(sign * most.value - joint.home) < extreme_accuracy * unit;
-      if (was_near || home || most.value <= begins || most.value > sign * limit + resolution)
-        continue;
+      if (was_near || most.value <= begins || most.value > sign * limit + resolution) continue;
       const double left = sign * limit - most.value;
       if (!margin_rows_.wants(-left / unit)) continue;
       const auto first = first_above(track, t0, t1, begins);
