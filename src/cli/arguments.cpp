@@ -316,6 +316,23 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_new->add_flag("--force", machine.force, "write into a folder that exists");
   add_color(c_new, machine.color);
   c_new->callback([&machine] { machine.action = MachineArguments::Action::create; });
+  CLI::App* c_import = c_machine->add_subcommand(
+      "import",
+      "write a package made from the set-up of a LinuxCNC machine or a robot's description\n\n"
+      "  aircut machine import mymill.ini mymill\n"
+      "  aircut machine import robot.urdf:tool0 myrobot --package-root ~/ws/src");
+  c_import
+      ->add_option("FILE", machine.machine,
+                   "FILE.ini, FILE.urdf, or FILE.urdf:LINK with the link that carries the tool")
+      ->required();
+  c_import->add_option("NAME", machine.output, "folder of the new package")->required();
+  c_import
+      ->add_option("--package-root", machine.package_root,
+                   "folder of the packages that package://NAME/… names (default: above the file)")
+      ->type_name("DIR");
+  c_import->add_flag("--force", machine.force, "write into a folder that exists");
+  add_color(c_import, machine.color);
+  c_import->callback([&machine] { machine.action = MachineArguments::Action::convert; });
 
   CLI::App* c_kin = app.add_subcommand(
       "kin",

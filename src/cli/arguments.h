@@ -76,14 +76,15 @@ struct TraceArguments {
 };
 
 struct MachineArguments {
-  enum class Action { check, info, render, create } action = Action::info;
+  enum class Action { check, info, render, create, convert } action = Action::info;
   std::string machine, setup, tools;
   int tool = 0;
   std::string output = "machine.png";
   std::string camera = "iso";
   int width = 1280, height = 800;
   bool force = false;
-  std::string formula;  ///< create: `machine` is the folder that is written
+  std::string formula;       ///< create: `machine` is the folder that is written
+  std::string package_root;  ///< convert: where `package://` looks
   When color = When::automatic;
 };
 

@@ -118,9 +118,8 @@ int check_command(const CheckArguments& a) {
   };
   bool printed = !stream || (print_text(report::jsonl_head(report)) && stream_shared(0));
   if (job.control) report.summary.unchecked = job.control->unchecked;
-  if (job.imported)
-    report.summary.unchecked.insert(report.summary.unchecked.end(), job.imported->unchecked.begin(),
-                                    job.imported->unchecked.end());
+  report.summary.unchecked.insert(report.summary.unchecked.end(), job.machine_unchecked.begin(),
+                                  job.machine_unchecked.end());
   sim::Verdict worst = sim::judge({}, report.summary, job.diagnostics, a.output.fail_on);
   std::vector<std::unique_ptr<SourceMap>> kept;
   std::size_t messages = 0;

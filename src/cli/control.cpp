@@ -40,6 +40,7 @@ bool import_ini(Job& job, const ProgramArguments& arguments) {
                             machine::split_channel(arguments.machine).second);
   if (!machine) return false;
   job.machine = *machine;
+  job.machine_unchecked = (*imported)->unchecked;
   job.imported = std::move(*imported);
   job.start = job.machine->home();
   job.inputs.push_back({"machine", arguments.machine, sha256(text.content())});

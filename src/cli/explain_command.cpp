@@ -6,6 +6,7 @@
 #include "cli/job.h"
 #include "cli/print_report.h"
 #include "semantics/semantics.h"
+#include "urdf/urdf.h"
 
 namespace aircut::cli {
 
@@ -68,6 +69,7 @@ std::vector<KindText> all_kinds() {
   add(interp::error_kinds());
   add(ini::kinds());
   add(linuxcnc::kinds());
+  add(urdf::kinds());
   add(sim::finding_kinds());
   add(semantics::semantic_kinds());
   std::stable_sort(out.begin(), out.end(), [](const KindText& a, const KindText& b) {

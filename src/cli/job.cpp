@@ -102,6 +102,8 @@ bool open_inputs(Job& job, const ProgramArguments& arguments, std::optional<doub
   if (machine::split_channel(arguments.machine).first.ends_with(".ini")) {
     if (arguments.ini_use != ProgramArguments::IniUse::control && !import_ini(job, arguments))
       return false;
+  } else if (machine::split_channel(arguments.machine).first.ends_with(".urdf")) {
+    if (!import_urdf(job, arguments.machine)) return false;
   } else if (!arguments.machine.empty()) {
     const auto [package, channel] = machine::split_channel(arguments.machine);
     const auto path = machine::find_package(package, package_folders());

@@ -22,6 +22,7 @@ struct Job {
   std::shared_ptr<const machine::Machine> machine;  ///< null when none was named
   std::optional<linuxcnc::Setup> control;           ///< --ini
   std::optional<linuxcnc::MachineImport> imported;  ///< `machine` is that of a set-up
+  std::vector<std::string> machine_unchecked;       ///< of a machine of another format
   machine::JointVector start;
   tool::ToolTable tools;
   interp::ParameterFile parameters;
@@ -40,6 +41,8 @@ bool open_ini(Job& job, const ProgramArguments& arguments);
 /// The machine of a set-up (`FILE.ini`, `FILE.ini:CHANNEL`) into job.machine, which stays empty
 /// when the set-up names no kinematics; false with errors in job.diagnostics.
 bool import_ini(Job& job, const ProgramArguments& arguments);
+/// `FILE.urdf`, `FILE.urdf:LINK`: likewise.
+bool import_urdf(Job& job, const std::string& what);
 /// Has the set-up travel of axes that the machine's joints do not have?
 bool has_axis_travel(const Job& job);
 /// Tells a code whose program of the control was not run, once per place.
@@ -83,6 +86,7 @@ int run_command(const RunArguments& arguments);
 int check_command(const CheckArguments& arguments);
 int trace_command(const TraceArguments& arguments);
 int machine_command(const MachineArguments& arguments);
+int import_command(const MachineArguments& arguments);
 int new_command(const MachineArguments& arguments);
 int kin_command(const KinArguments& arguments);
 int workspace_command(const WorkspaceArguments& arguments);

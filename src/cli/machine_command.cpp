@@ -113,6 +113,7 @@ void check_at_home(const Job& job, Diagnostics& out) {
 
 int machine_command(const MachineArguments& a) {
   if (a.action == MachineArguments::Action::create) return new_command(a);
+  if (a.action == MachineArguments::Action::convert) return import_command(a);
   Job job;
   ProgramArguments inputs;
   inputs.machine = a.machine;
@@ -131,6 +132,7 @@ int machine_command(const MachineArguments& a) {
       return render_machine(a, job);
     case MachineArguments::Action::check:
     case MachineArguments::Action::create:
+    case MachineArguments::Action::convert:
       break;
   }
   machine::check_model(*job.machine, job.diagnostics);

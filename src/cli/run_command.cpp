@@ -196,8 +196,8 @@ std::vector<std::string> unchecked_of(const Job& job, const Checks& checks) {
     all.insert(all.end(), more.begin(), more.end());
   };
   if (job.control) add(job.control->unchecked);
+  add(job.machine_unchecked);
   if (!job.imported) return all;
-  add(job.imported->unchecked);
   if (!checks.collision && !checks.cut) return all;
   add(job.imported->undrawn);
   if (checks.collision && job.machine->bodies().empty())

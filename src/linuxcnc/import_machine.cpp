@@ -5,6 +5,10 @@
 #include "linuxcnc/module_import.h"
 
 namespace aircut::linuxcnc {
+
+using package::Couple;
+using package::CoupleLimits;
+
 namespace {
 
 constexpr double mm_per_inch = 25.4;
@@ -338,8 +342,7 @@ void ModuleImport::switching() {
   if (!from || !from->starts_with(output)) return;
   constexpr double last = 63;
   const auto number = parse_number(from->substr(output.size()));
-  if (number && *number >= 0 && *number <= last)
-    result_.switch_output = static_cast<int>(*number);
+  if (number && *number >= 0 && *number <= last) result_.switch_output = static_cast<int>(*number);
 }
 
 void ModuleImport::speed() {

@@ -10,7 +10,7 @@
 
 #include "linuxcnc/hal.h"
 #include "linuxcnc/linuxcnc.h"
-#include "linuxcnc/machine_text.h"
+#include "package/machine_text.h"
 
 namespace aircut::linuxcnc {
 
@@ -24,15 +24,15 @@ class ModuleImport {
   void run(const ini::Entry& kinematics);
 
   // ---- for the rows
-  MachineText& text() { return text_; }
+  package::MachineText& text() { return text_; }
   /// Letters of `coordinates=`, in capitals; `usual` without.
   std::string letters(std::string_view usual);
   int joints() const { return joints_; }
   /// Limits of a joint. With a letter that is moved by this joint alone, also those of the axis.
-  CoupleLimits limits(int joint, bool rotary, char axis = 0);
+  package::CoupleLimits limits(int joint, bool rotary, char axis = 0);
   /// A couple with them, named J0, J1, …
-  Couple couple(int joint, bool rotary, const Eigen::Vector3d& direction,
-                const std::string& parent = "bed");
+  package::Couple couple(int joint, bool rotary, const Eigen::Vector3d& direction,
+                         const std::string& parent = "bed");
   /// An input of the module, or the module's default in the machine's unit.
   double length(const std::string& pin, std::optional<double> usual);
   double plain(const std::string& pin, std::optional<double> usual);
@@ -72,7 +72,7 @@ class ModuleImport {
   double unit_mm_;
   Diagnostics& out_;
   MachineImport& result_;
-  MachineText text_;
+  package::MachineText text_;
   std::string module_, coordinates_;
   SourceSpan span_;  ///< of KINEMATICS
   int joints_ = 0;

@@ -14,6 +14,10 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using package::Couple;
+using package::DriveText;
+using package::fixed_angles;
+using package::list_of;
 
 std::string number(const char* key, double value) {
   return std::string(key) + " = " + shortest(value) + "\n";
@@ -226,16 +230,6 @@ void three21(ModuleImport& m) {
                 number("d1", d1) + number("d2", d2) + number("d3", d3) + number("d4", d4) +
                 number("d6", d6),
             a1, d1, a2, a3, d2 + d3, d4, d6);
-}
-
-// Turned about the fixed X, then Y, then Z axis by these degrees.
-Vector3d fixed_angles(const Matrix3d& R) {
-  constexpr double degrees = 180 / std::numbers::pi;
-  const double across = std::hypot(R(0, 0), R(1, 0));
-  const double b = std::atan2(-R(2, 0), across);
-  constexpr double locked = 1e-9;
-  if (across < locked) return Vector3d(std::atan2(-R(1, 2), R(1, 1)), b, 0) * degrees;
-  return Vector3d(std::atan2(R(2, 1), R(2, 2)), b, std::atan2(R(1, 0), R(0, 0))) * degrees;
 }
 
 // Six modified Denavit-Hartenberg rows; their couples at zero are the frames behind Rx(α)·Tx(a).

@@ -22,6 +22,8 @@ namespace aircut::linuxcnc {
 namespace {
 
 using Eigen::Vector3d;
+using package::Couple;
+using package::DriveText;
 
 bool rotary(char letter) { return letter >= 'A' && letter <= 'C'; }
 bool linear(char letter) { return letter >= 'X' && letter <= 'Z'; }

@@ -52,8 +52,9 @@ Expected<std::string> find_package(const std::string& what,
       return fail("the folder '" + printable(what) + "' has no machine.toml");
   } else if (fs::exists(what, error)) {
     if (fs::path(what).extension() == ".toml") return what;
-    return fail("'" + printable(what) + "' is not a machine.toml; other forms of machines (.ini, " +
-                ".urdf) are not supported by this version");
+    return fail("'" + printable(what) + "' is no machine: it must be a package folder, a " +
+                "machine.toml, the set-up of a LinuxCNC machine (.ini) or a robot's description " +
+                "(.urdf)");
   }
   if (what.find('/') == std::string::npos)
     for (const std::string& folder : search) {

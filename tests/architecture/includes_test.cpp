@@ -62,17 +62,18 @@ TEST(Architecture, EveryIncludeIsAllowedByTheDependenciesOfItsLibrary) {
 
 TEST(Architecture, ThirdPartyLibrariesStayInTheirWrapper) {
   const std::map<std::string, std::string> wrapper = {
-      {"assimp/", "geometry"}, {"fcl/", "collide"}, {"GL/", "render"},
-      {"ft2build", "render"},  {"png.h", "render"}, {"toml++/", "config"},
-      {"nlohmann/", "report"}, {"CLI/", "cli"},     {"nettle/", "base"},
-      {"pugixml", "report"},   {"zlib.h", "base"}};
+      {"assimp/", "geometry"},    {"fcl/", "collide"}, {"GL/", "render"},
+      {"ft2build", "render"},     {"png.h", "render"}, {"toml++/", "config"},
+      {"nlohmann/", "report"},    {"CLI/", "cli"},     {"nettle/", "base"},
+      {"pugixml", "report urdf"}, {"zlib.h", "base"}};
   for (const auto& entry : fs::recursive_directory_iterator(root / "src")) {
     if (!entry.is_regular_file()) continue;
     const std::string folder = fs::relative(entry.path(), root / "src").begin()->string();
     const std::string text = text_of(entry.path());
     for (const auto& [header, home] : wrapper)
       if (text.find("#include <" + header) != std::string::npos) {
-        EXPECT_EQ(folder, home) << entry.path() << " includes <" << header;
+        EXPECT_NE((" " + home + " ").find(" " + folder + " "), std::string::npos)
+            << entry.path() << " includes <" << header;
         EXPECT_NE(entry.path().filename(), folder + ".h")
             << "public headers show no third-party types";
       }

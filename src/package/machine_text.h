@@ -1,5 +1,5 @@
-// A machine.toml that is put together couple by couple (docs/machine-package.md). Lengths mm,
-// angles degrees.
+// package: a machine.toml that is put together couple by couple (docs/machine-package.md). Lengths
+// mm, angles degrees.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace aircut::linuxcnc {
+namespace aircut::package {
 
 /// Limits of a driven couple.
 struct CoupleLimits {
@@ -29,17 +29,24 @@ struct Couple {
 struct DriveText {
   std::string name = {};
   std::vector<std::string> axes = {};  ///< names of its couples
-  std::string kinematics;         ///< lines of `[kinematics]`
-  std::string work = "bed";       ///< link
+  std::string kinematics;              ///< lines of `[kinematics]`
+  std::string work = "bed";            ///< link
   Eigen::Vector3d work_angles = Eigen::Vector3d::Zero();
   std::string spindle = "bed";  ///< link
   Eigen::Vector3d gauge = Eigen::Vector3d::Zero();
   Eigen::Vector3d spindle_angles = Eigen::Vector3d::Zero();
 };
 
+/// Something to draw and to collide with; its mesh is in bed axes with every joint at zero.
+struct BodyText {
+  std::string name, link, mesh;
+};
+
 std::string quoted(const std::string& text);
 std::string list_of(const Eigen::Vector3d& v);
 std::string list_of(const std::vector<Eigen::Vector3d>& points);
+/// R as turns about the fixed X, then Y, then Z axis, degrees.
+Eigen::Vector3d fixed_angles(const Eigen::Matrix3d& R);
 
 class MachineText {
  public:
@@ -51,6 +58,7 @@ class MachineText {
                const Eigen::Vector3d& direction);
   /// platform_x, _y, _z and then the angles, one on the other; the last link.
   std::string platform(const std::string& angles);
+  void body(const BodyText& body);
   void drive(DriveText drive) { drives_.push_back(std::move(drive)); }
   void spindle_speed(double low, double high) { rpm_ = {low, high}; }
   std::string text() const;
@@ -63,4 +71,4 @@ class MachineText {
   std::optional<std::pair<double, double>> rpm_;
 };
 
-}  // namespace aircut::linuxcnc
+}  // namespace aircut::package

@@ -1,8 +1,11 @@
-#include "linuxcnc/machine_text.h"
+#include "package/machine_text.h"
+
+#include <cmath>
+#include <numbers>
 
 #include "base/base.h"
 
-namespace aircut::linuxcnc {
+namespace aircut::package {
 
 using Eigen::Vector3d;
 
@@ -25,6 +28,15 @@ std::string list_of(const std::vector<Vector3d>& points) {
   return out + "]";
 }
 
+Vector3d fixed_angles(const Eigen::Matrix3d& R) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  const double across = std::hypot(R(0, 0), R(1, 0));
+  const double b = std::atan2(-R(2, 0), across);
+  constexpr double locked = 1e-9;
+  if (across < locked) return Vector3d(std::atan2(-R(1, 2), R(1, 1)), b, 0) * degrees;
+  return Vector3d(std::atan2(R(2, 1), R(2, 2)), b, std::atan2(R(1, 0), R(0, 0))) * degrees;
+}
+
 void MachineText::couple_head(const std::string& name, bool rotary, const std::string& parent,
                               const Vector3d& direction, const Vector3d& origin, double sense) {
   couples_ += "\n[[axis]]\nname = " + quoted(name) + "\nkind = \"" +
@@ -42,6 +54,11 @@ void MachineText::add(const Couple& couple) {
   if (l.max) couples_ += "max = " + shortest(*l.max) + "\n";
   couples_ += "vmax = " + shortest(l.vmax) + "\namax = " + shortest(l.amax) +
               "\nhome = " + shortest(l.home) + "\n";
+}
+
+void MachineText::body(const BodyText& body) {
+  couples_ += "\n[[body]]\nname = " + quoted(body.name) + "\nlink = " + quoted(body.link) +
+              "\nmesh = " + quoted(body.mesh) + "\nunit = \"mm\"\n";
 }
 
 void MachineText::passive(const std::string& value, const std::string& parent,
@@ -84,4 +101,4 @@ std::string MachineText::text() const {
   return out + couples_;
 }
 
-}  // namespace aircut::linuxcnc
+}  // namespace aircut::package
