@@ -116,7 +116,7 @@ class CodeTable {
   /// The row of a G or M word, or null when there is no such code.
   const CodeRule* find(char letter, double number) const {
     const int whole = number >= 0 && number < max_g / 10 ? static_cast<int>(number) : -1;
-    if (whole != number) return find_rounded(letter, number);
+    if (whole < 0 || whole != number) return find_rounded(letter, number);
     return letter == 'G' ? g_[static_cast<std::size_t>(whole * 10)]
                          : m_[static_cast<std::size_t>(whole)];
   }
