@@ -15,4 +15,6 @@
 #include "accuracy/size.h"
 #include "accuracy/stability.h"
 #include "accuracy/structure.h"
+#include "accuracy/sweep.h"
+#include "accuracy/text.h"
 #include "accuracy/turning.h"

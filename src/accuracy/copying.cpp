@@ -31,10 +31,25 @@ MatrixXd jacobian(const CopyingProblem& problem, const VectorXd& t) {
 
 // A real eigenvalue at or below 0: a depth runs away along its vector. Of one tool that is 1 + q.
 bool runs_away(const MatrixXd& J) {
+  if (!J.allFinite()) return false;
   const auto values = Eigen::EigenSolver<MatrixXd>(J, false).eigenvalues();
   for (Eigen::Index i = 0; i < values.size(); ++i)
     if (values[i].imag() == 0 && values[i].real() <= 0) return true;
   return false;
+}
+
+// Forces end at t = 0 with a steep slope, so a whole step may lead out of the work although the
+// depth at rest is inside: then a tenth of the depth is the next guess. A tool that the others push
+// out of the work may leave it.
+template <class Residual>
+VectorXd kept_in_the_work(const VectorXd& from, VectorXd to, const Residual& residual) {
+  for (Eigen::Index k = 0; k < from.size(); ++k) {
+    if (!(from[k] > 0 && to[k] <= 0)) continue;
+    VectorXd at_surface = from;
+    at_surface[k] = 0;
+    if (residual(at_surface)[k] > 0) to[k] = from[k] / 10;
+  }
+  return to;
 }
 
 }  // namespace
@@ -48,12 +63,15 @@ CopyingResult solve_copying(const CopyingProblem& problem) {
   CopyingResult out;
   out.unstable = runs_away(jacobian(problem, t));
   while (!out.unstable && !out.converged && out.iterations < most_iterations) {
-    const VectorXd step =
-        jacobian(problem, t).partialPivLu().solve(t0 - t - displacement(problem, t));
-    t += step;
+    const auto residual = [&](const VectorXd& at) {
+      return VectorXd(t0 - at - displacement(problem, at));
+    };
+    const VectorXd r = residual(t);
+    const VectorXd step = jacobian(problem, t).partialPivLu().solve(r);
     ++out.iterations;
-    if (!t.allFinite()) break;
+    if (!step.allFinite()) break;
     out.converged = step.cwiseAbs().maxCoeff() < tolerance;
+    t = kept_in_the_work(t, t + step, residual);
   }
   const MatrixXd J = out.converged ? jacobian(problem, t) : MatrixXd();
   if (out.converged && runs_away(J)) {

@@ -187,6 +187,11 @@ void Evaluation::displace(SegmentResult& segment) {
       once(Severity::warning, "displacement_large", c.place,
            "the displacement of " + fixed(moved[k].displacement.norm() * 1e3, 1) +
                " µm is more than a tenth of the depth: the model is linear and hardly holds");
+    if (!moved[k].displacement.allFinite() || !moved[k].rotation.allFinite()) {
+      once(Severity::error, "accuracy_range", c.place,
+           "the displacement is no finite number: a force or a compliance is far too large");
+      continue;
+    }
     if (c.normal.isZero()) continue;
     const WorkEntry& work = setup_.works[c.work];
     result.delta = setup_.settings.second_order

@@ -52,6 +52,10 @@ Compliance read_compliance(Table& table, const std::string& body, SetupReading& 
   out.e = checked_matrix(table, "e", body, per_micro, reading);
   out.xi = checked_matrix(table, "xi", body, per_micro, reading);
   if (const auto coupling = matrix3(table, "coupling")) out.c = *coupling * coupling_unit;
+  if (!reading.setup.settings.angular) {
+    out.xi.setZero();
+    out.c.setZero();
+  }
   return out;
 }
 
@@ -202,6 +206,8 @@ void read_bodies(Table& top, SetupReading& reading) {
     roots.emplace_back(table, first);
     reading.body_index[name] = static_cast<int>(reading.setup.bodies.size()) - 1;
   }
+  if (reading.setup.bodies.size() > most_bodies)
+    range_error(top, "bodies", "a set-up has at most " + std::to_string(most_bodies) + " bodies");
   if (reading.setup.bodies.empty())
     top.error("bodies", "the set-up needs at least one [[bodies]]: an elastic part of the machine");
   link_parents(roots, reading);

@@ -37,9 +37,11 @@ const Material* material_of(Table& table, const SetupReading& reading,
 }
 
 // Speed in m/min, from V or from a spindle speed and the largest diameter.
-double cutting_speed(Table& table, ContactEntry& contact, const Settings& settings) {
+double cutting_speed(Table& table, ContactEntry& contact, SetupReading& reading) {
+  const Settings& settings = reading.setup.settings;
   contact.diameter = positive_if(table, "diameter").value_or(0);
   const auto V = positive_if(table, "V"), rpm = positive_if(table, "rpm");
+  if (const auto changed = reading.changed(contact, "V"); changed && *changed > 0) return *changed;
   if (V) return *V;
   if (!rpm || contact.diameter == 0) {
     table.error("V", "the cutting speed is missing: 'V' in m/min, or 'rpm' and 'diameter'");
@@ -115,9 +117,11 @@ void warn_outside(Table& table, const std::string& key, const std::optional<Inte
 void read_turning(Table& table, SetupReading& reading, ContactEntry& contact) {
   contact.t = table.required_number("t");
   contact.S = table.required_number("S");
+  contact.t = reading.changed(contact, "t").value_or(contact.t);
+  contact.S = reading.changed(contact, "S").value_or(contact.S);
   if (contact.t < 0) range_error(table, "t", "a depth is at least 0 mm");
   if (contact.S < 0) range_error(table, "S", "a feed is at least 0 mm/rev");
-  contact.V = cutting_speed(table, contact, reading.setup.settings);
+  contact.V = cutting_speed(table, contact, reading);
   const auto triad = triad_of(table, reading, contact);
   const Material* material = material_of(table, reading, contact);
   if (!triad || !material) return;
@@ -180,6 +184,9 @@ void read_milling(Table& table, SetupReading& reading, ContactEntry& contact) {
     return;
   }
   const Cutter& cutter = *tool.cutter;
+  if (cut.a_p > most_depth * cutter.diameter)
+    range_error(table, "a_p", "'a_p' is at most 20 diameters of the cutter");
+  cut.a_p = std::min(cut.a_p, most_depth * cutter.diameter);
   if (!a_e && mode != "slot") table.error("a_e", "'a_e' is missing: the radial width of the cut");
   if (a_e && *a_e > cutter.diameter)
     range_error(table, "a_e", "'a_e' is at most the cutter's diameter");
@@ -253,7 +260,7 @@ void read_drilling(Table& table, SetupReading& reading, ContactEntry& contact, b
 }
 
 // Half of the stock's tolerance on a diameter is its allowance on the depth.
-void read_allowance(Table& table, ContactEntry& contact) {
+void read_allowance(Table& table, SetupReading& reading, ContactEntry& contact) {
   const auto dt = table.number("dt");
   auto stock = table.table("stock");
   if (dt) contact.dt = *dt;
@@ -269,6 +276,7 @@ void read_allowance(Table& table, ContactEntry& contact) {
     if (dt) table.error("stock", "give the allowance once: 'dt' or 'stock'");
     contact.dt = tolerance.value_or(0) * (face ? 1 : 0.5);
   }
+  contact.dt = reading.changed(contact, "dt").value_or(contact.dt);
   if (contact.dt / 2 > contact.t && contact.t > 0) {
     Diagnostic d = make_error("allowance_clipped", table.span(table.has("dt") ? "dt" : "stock"),
                               "half of the allowance " + shortest(contact.dt) +
@@ -327,6 +335,9 @@ void read_contacts(Table& top, SetupReading& reading) {
       if (!(contact.span->from < contact.span->to))
         range_error(table, "interval_s", "'interval_s' goes from an earlier to a later time");
     }
+    if (contact.span)
+      if (const auto start = reading.changed(contact, "start"))
+        contact.span = Span{*start, *start + contact.span->to - contact.span->from};
     contact.normal = unit_vector(table, "normal").value_or(Vec3::Zero());
     if (!tool || !work || !point) {
       for (const std::string& key : table.keys()) table.know(key);
@@ -336,8 +347,13 @@ void read_contacts(Table& top, SetupReading& reading) {
     contact.work = *work;
     contact.contact = {reading.setup.tools[*tool].body, reading.setup.works[*work].body, *point};
     read_force(table, reading, contact);
-    read_allowance(table, contact);
+    read_allowance(table, reading, contact);
     reading.setup.contacts.push_back(contact);
+  }
+  if (reading.setup.contacts.size() > most_contacts) {
+    range_error(top, "contacts",
+                "a set-up has at most " + std::to_string(most_contacts) + " contacts");
+    reading.setup.contacts.resize(most_contacts);
   }
 }
 

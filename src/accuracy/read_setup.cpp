@@ -54,6 +54,12 @@ std::optional<Mat3> matrix3(Table& table, const std::string& key) {
   return out;
 }
 
+std::optional<double> SetupReading::changed(const ContactEntry& contact, const std::string& key) {
+  const auto node = what_if.contacts.extract({contact.name, key});
+  if (node.empty()) return std::nullopt;
+  return node.mapped();
+}
+
 std::optional<int> SetupReading::body(Table& table, const std::string& key) {
   const std::string name = table.required_text(key);
   const auto found = body_index.find(name);
@@ -154,9 +160,9 @@ Material read_material(Table& table) {
 Cutter read_cutter(Table& table) {
   Cutter out;
   const long teeth = table.integer("N").value_or(0);
-  if (!(teeth >= 1 && teeth <= 1000))
-    range_error(table, "N", "'N' is the number of teeth, 1 … 1000");
-  out.teeth = static_cast<int>(std::clamp(teeth, 1L, 1000L));
+  if (!(teeth >= 1 && teeth <= most_teeth))
+    range_error(table, "N", "'N' is the number of teeth, 1 … 200");
+  out.teeth = static_cast<int>(std::clamp(teeth, 1L, most_teeth));
   out.diameter = positive(table, "D");
   const double helix = table.number("helix_deg", 0);
   if (!(std::abs(helix) < 85))
@@ -183,6 +189,14 @@ void read_tools(Table& top, SetupReading& reading) {
       table.report(make_error("accuracy_reference", table.span("id"),
                               "there are two tools with the number " + std::to_string(tool.id)));
     tool.body = reading.body(table, "body").value_or(ground);
+    if (const auto node = reading.what_if.tool_bodies.extract(tool.id)) {
+      const auto found = reading.body_index.find(node.mapped());
+      if (found != reading.body_index.end())
+        tool.body = found->second;
+      else
+        table.report(make_error("accuracy_reference", table.span("body"),
+                                "there is no body " + quoted(node.mapped())));
+    }
     tool.law = table.text("law", "");
     if (!tool.law.empty()) reading.material(table, "law", tool.law);
     const double kappa = table.number("kappa_deg", 90);
@@ -214,9 +228,10 @@ void read_works(Table& top, SetupReading& reading) {
   }
 }
 
-void read_settings(Table& top, Settings& out) {
-  const std::string policy = top.choice(
+void read_settings(Table& top, Settings& out, const WhatIf& what_if) {
+  const std::string given = top.choice(
       "sign_policy", {"check", "as_given", "row_flip", "column_flip", "abs_diagonal"}, "check");
+  const std::string policy = what_if.sign_policy.value_or(given);
   out.repair.policy = policy == "as_given"       ? SignPolicy::as_given
                       : policy == "row_flip"     ? SignPolicy::row_flip
                       : policy == "column_flip"  ? SignPolicy::column_flip
@@ -224,7 +239,8 @@ void read_settings(Table& top, Settings& out) {
                                                  : SignPolicy::check;
   out.repair.symmetrize = top.boolean("symmetrize", false);
   out.repair.psd_project = top.boolean("psd_project", false);
-  out.coupled = top.boolean("coupled", false);
+  out.angular = what_if.angular.value_or(top.boolean("angular", true));
+  out.coupled = what_if.coupled.value_or(top.boolean("coupled", false));
   out.second_order = top.boolean("second_order", false);
   out.mean_diameter = top.choice("speed_diameter", {"outer", "mean"}, "outer") == "mean";
 }
@@ -254,9 +270,9 @@ void read_scatter(Table& top, Setup& setup) {
     Draws d;
     const long count = draws->integer("count").value_or(10000),
                seed = draws->integer("seed").value_or(1);
-    if (!(count >= 1 && count <= 100'000'000))
-      range_error(*draws, "count", "'count' is 1 … 100000000 draws");
-    d.count = static_cast<std::size_t>(std::clamp(count, 1L, 100'000'000L));
+    if (!(count >= 1 && count <= most_draws))
+      range_error(*draws, "count", "'count' is 1 … 10000000 draws");
+    d.count = static_cast<std::size_t>(std::clamp(count, 1L, most_draws));
     d.seed = static_cast<std::uint64_t>(seed);
     d.shape = draws->choice("shape", {"uniform", "normal"}, "uniform") == "normal"
                   ? Draws::Shape::normal
@@ -326,13 +342,14 @@ void read_materials(Table& top, SetupReading& reading) {
     if (auto one = table->table(name)) reading.setup.materials[name] = read_material(*one);
 }
 
-std::optional<Setup> read_setup(const SourceText& text, Diagnostics& out) {
+std::optional<Setup> read_setup(const SourceText& text, Diagnostics& out, const WhatIf& what_if) {
   config::Reader reader(text, "accuracy_invalid");
   Table top = reader.top();
   SetupReading reading;
   if (top.integer("version").value_or(1) != 1)
     top.error("version", "this program reads version 1 of the set-up");
-  read_settings(top, reading.setup.settings);
+  read_settings(top, reading.setup.settings, what_if);
+  reading.what_if = what_if;
   read_bodies(top, reading);
   read_materials(top, reading);
   read_tools(top, reading);
@@ -341,6 +358,12 @@ std::optional<Setup> read_setup(const SourceText& text, Diagnostics& out) {
   read_limits(top, reading.setup.limits);
   read_contacts(top, reading);
   read_dimensions(top, reading);
+  for (const auto& [place, value] : reading.what_if.contacts)
+    top.report(make_error("usage", "there is no " + quoted(place.first + "." + place.second) +
+                                       " to be changed: a contact's name and t, S, V, dt or start, "
+                                       "as far as the contact has it"));
+  for (const auto& [id, body] : reading.what_if.tool_bodies)
+    top.report(make_error("usage", "there is no tool " + std::to_string(id) + " to be moved"));
   const Diagnostics found = reader.finish();
   for (const Diagnostic& d : found.list()) out.add(d);
   if (found.errors() > 0) return std::nullopt;

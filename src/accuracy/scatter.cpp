@@ -215,6 +215,11 @@ Sample monte_carlo(std::span<const ToolShare> tools, const Bands& bands, const D
   }
   Sample out;
   if (values.empty()) return out;
+  for (const double value : values)
+    if (!std::isfinite(value)) {  // forces far too large: there is nothing to sort
+      out.mean = out.sigma = out.low = out.high = out.q_low = out.q_high = value;
+      return out;
+    }
   const double n = static_cast<double>(values.size());
   for (const double value : values) out.mean += value / n;
   for (const double value : values) out.sigma += (value - out.mean) * (value - out.mean);

@@ -17,6 +17,7 @@ namespace aircut::accuracy {
 
 struct Settings {
   Repair repair;
+  bool angular = true;         ///< false: bodies only shift, xi and coupling are left out
   bool coupled = false;        ///< the depth shrinks as the tool is pushed away
   bool second_order = false;   ///< tangential displacements change a turned radius
   bool mean_diameter = false;  ///< V of the mean instead of the outer diameter
@@ -103,7 +104,17 @@ struct Setup {
   std::vector<Dimension> dimensions;
 };
 
+/// What a what-if changes against the file.
+struct WhatIf {
+  /// By contact and key: `t`, `S`, `V`, `dt`, or `start` (the begin of its interval, s).
+  std::map<std::pair<std::string, std::string>, double> contacts;
+  std::map<long, std::string> tool_bodies;  ///< by the tool's id
+  std::optional<std::string> sign_policy;
+  std::optional<bool> angular, coupled;
+};
+
 /// Everything that is wrong or doubtful goes to `out`; nothing is returned when there are errors.
-std::optional<Setup> read_setup(const SourceText& text, Diagnostics& out);
+std::optional<Setup> read_setup(const SourceText& text, Diagnostics& out,
+                                const WhatIf& what_if = {});
 
 }  // namespace aircut::accuracy

@@ -12,11 +12,21 @@ constexpr double degree = 0.017453292519943295;  // rad
 constexpr double per_micro = 1e-3;               // µm/N → mm/N, rad/(N·m) → rad/(N·mm)
 constexpr double coupling_unit = 1e-6;           // µm/(N·m) → mm/(N·mm)
 
+/// More than any machine has; keeps the time for a hostile file short.
+constexpr std::size_t most_bodies = 128, most_contacts = 32;
+constexpr long most_teeth = 200;
+constexpr double most_depth = 20;  // of a milling cut, in diameters
+constexpr long most_draws = 10'000'000;
+
 /// Everything that is being read, and the names that were met.
 struct SetupReading {
   Setup setup;
   std::map<std::string, int> body_index;
   std::map<long, std::size_t> tool_index, work_index;
+  WhatIf what_if;  ///< what was used is taken out
+
+  /// What the what-if says of a contact's key, if anything.
+  std::optional<double> changed(const ContactEntry& contact, const std::string& key);
 
   std::optional<int> body(Table& table, const std::string& key);
   const Material* material(Table& table, const std::string& key, const std::string& name);

@@ -161,6 +161,18 @@ TEST(Evaluate, ARunawayAndALargeDisplacementAreTold) {
             std::string::npos);
 }
 
+// t − t² = 0.3 has no solution, though the machine holds the tool at t = 0.3.
+TEST(Evaluate, ADepthThatIsNotFoundIsTold) {
+  const Answer a = answer(
+      "coupled = true\nsign_policy = \"as_given\"\n[[bodies]]\nname = \"s\"\n"
+      "e = [[-1,0,0],[0,0,0],[0,0,0]]\n[[bodies]]\nname = \"t\"\ne = [[0,0,0],[0,0,0],[0,0,0]]\n"
+      "[materials.m]\ncut = {C=1}\nthrust = {C=1000,x=2}\nfeed = {C=1}\n"
+      "[[tools]]\nid=1\nbody=\"t\"\nlaw=\"m\"\n[[works]]\nbody=\"s\"\n"
+      "[[contacts]]\ntool=1\npoint=[20,0,0]\nt=0.3\nS=1\nV=200\nfeed=[0,0,-1]\n");
+  EXPECT_NE(a.messages.find("copying_not_converged: "), std::string::npos) << a.messages;
+  EXPECT_EQ(a.result.segments[0].contacts[0].t, 0.3);
+}
+
 TEST(Evaluate, ASizeThatCannotBeWorkedOutSaysSo) {
   const Answer a = answer(with(shipped(), "tool = 1\nkind", "tool = 2\nkind"));
   EXPECT_EQ(a.result.dimensions[0].unchecked, "");

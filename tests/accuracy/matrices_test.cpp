@@ -238,6 +238,24 @@ TEST(Copying, MeetsTheVectors) {
   }
 }
 
+TEST(Copying, FindsTheDepthOfASoftMachineNearZeroAndOfAToolThatIsPushedOut) {
+  // t + 5 t^0.2 = 1: a whole Newton step from t = 1 leads below 0, where there is no force.
+  ToolShare soft;
+  soft.gain = {5, 0, 0};
+  soft.exponent = {0.2, 1, 1};
+  const CopyingResult result = solve_copying({{1.0}, {{soft}}});
+  ASSERT_TRUE(result.converged);
+  EXPECT_NEAR(result.t[0] + 5 * std::pow(result.t[0], 0.2), 1, 1e-8);
+  // Tool 2 pushes tool 1 away by 3 mm: it does not cut at all.
+  ToolShare none, push;
+  push.gain = {3, 0, 0};
+  push.exponent = {1, 1, 1};
+  const CopyingResult out = solve_copying({{1.0, 1.0}, {{soft, push}, {none, none}}});
+  ASSERT_TRUE(out.converged);
+  EXPECT_NEAR(out.t[0], -2, 1e-9);
+  EXPECT_NEAR(out.t[1], 1, 1e-9);
+}
+
 TEST(Copying, ADisplacementIntoTheWorkThatRunsAwayIsUnstable) {
   ToolShare dig;
   dig.gain = {-1.5, 0, 0};
