@@ -73,10 +73,17 @@ class SpilledArray {
     return true;
   }
 
-  /// The first one that is not `less` than `value`, in an array that is sorted by that.
+  /// The first one that is not `less` than `value`, in an array that is sorted by that. What `less`
+  /// looks at must not have been changed since the first such search.
   template <class V, class Less>
   std::size_t lower_bound(const V& value, Less less) {
-    std::size_t first = 0, count = size_;
+    // Samples say in which stretch it is, so that only the file's pages of that one are looked at.
+    for (std::size_t i = samples_.size() * stretch; i < size_; i += stretch)
+      samples_.push_back((*this)[i]);
+    const auto sample = std::lower_bound(samples_.begin(), samples_.end(), value, less);
+    if (sample == samples_.begin()) return 0;
+    const std::size_t behind = static_cast<std::size_t>(sample - samples_.begin()) * stretch;
+    std::size_t first = behind - stretch + 1, count = std::min(behind, size_) - first;
     while (count > 0) {
       const std::size_t half = count / 2;
       if (less((*this)[first + half], value)) {
@@ -93,6 +100,7 @@ class SpilledArray {
   /// new array.
   template <class Less>
   bool sort(Less less) {
+    samples_.clear();
     if (!memory_.spilled()) {
       std::sort(begin(), begin() + size_, less);
       return true;
@@ -111,6 +119,8 @@ class SpilledArray {
 
  private:
   static constexpr std::size_t part_size = SpilledMemory::most_in_memory / sizeof(T);
+
+  static constexpr std::size_t stretch = 1024;
 
   T* begin() { return reinterpret_cast<T*>(memory_.data()); }
 
@@ -148,6 +158,7 @@ class SpilledArray {
 
   SpilledMemory memory_;
   std::size_t size_ = 0;
+  std::vector<T> samples_;  ///< every 1024th, for searches
 };
 
 }  // namespace aircut

@@ -197,11 +197,14 @@ FlowProblem FlowIndex::problem_of(int at) {
                     std::to_string(max_problems) + " such problems)"};
 }
 
-// Programs mostly come from one entry to the next.
+// Programs mostly come from one entry to one of the next.
 int FlowIndex::at(std::uint64_t begin) {
-  const auto next = static_cast<std::size_t>(last_ + 1);
-  std::size_t found = next;
-  if (next >= entries.size() || entries[next].begin != begin)
+  constexpr std::size_t near = 16;
+  std::size_t found = static_cast<std::size_t>(last_ + 1);
+  const std::size_t end = std::min(entries.size(), found + near);
+  const bool is_ahead = found < end && entries[found].begin <= begin;
+  while (is_ahead && found < end && entries[found].begin < begin) ++found;
+  if (!is_ahead || found == end)
     found = entries.lower_bound(
         begin, [](const FlowEntry& entry, std::uint64_t b) { return entry.begin < b; });
   if (found == entries.size() || entries[found].begin != begin) return -1;
