@@ -209,6 +209,10 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       ->add_option("--save-stock", run.save_stock,
                    "the stock for the next job, whose set-up says [stock] file = \"FILE\"")
       ->type_name("FILE");
+  c_run
+      ->add_option("--overrides", run.overrides,
+                   "what is set at the panel at which time: feed, rapid and spindle override, hold")
+      ->type_name("FILE");
   c_run->add_option("--period", run.period, "servo and log period, s (default 0.001)")
       ->check(CLI::Range(1e-5, 1.0).description(""))
       ->type_name("S");

@@ -46,6 +46,10 @@ const std::vector<KindText>& general_kinds() {
        "the tool, like R(MS:C)-O-T(TS:X)-T(VS:Z); docs/formulas.md has the grammar."},
       {"mesh_invalid", "a mesh can't be used",
        "The file is missing, broken, empty or too large, or lies outside the package."},
+      {"overrides_invalid", "the file of --overrides is wrong",
+       "Every [[event]] needs t (s, in rising order) and at least one of feed, rapid, spindle, "
+       "adaptive (percent) and hold (true, false). What is held must be let go by a later event, "
+       "or the program would never end. docs/overrides.md has an example."},
       {"setup_invalid", "setup.toml is wrong",
        "A key is unknown or a value does not fit; line and column say where."},
       {"tools_invalid", "the tool table is wrong",

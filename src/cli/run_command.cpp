@@ -11,6 +11,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/job.h"
+#include "cli/overrides.h"
 #include "cli/print_report.h"
 #include "log/log.h"
 #include "logbook/logbook.h"
@@ -260,6 +261,12 @@ int run_command(const RunArguments& a) {
     return fail(
         make_error("usage", std::string(a.save_stock.empty() ? "--part" : "--save-stock") +
                                 " needs a stock: name a set-up with [stock], --setup FILE"));
+  std::vector<plan::OverrideEvent> overrides;
+  if (!a.overrides.empty()) {
+    auto read = read_overrides(job, a.overrides);
+    if (!read) return refuse(read.error(), a.output);
+    overrides = std::move(*read);
+  }
   if (!a.folder.empty())
     if (auto ready = prepare_folder(a.folder, a.force); !ready) return fail(ready.error());
 
@@ -268,7 +275,7 @@ int run_command(const RunArguments& a) {
   const interp::Options control = interpreter_options(job, a.program, **program);
   interp::Interpreter interpreter(**program, job.tools, job.parameters, control,
                                   sub_reader(job.sources), diagnostics);
-  plan::Planner planner(machine, job.start, {.period = a.period});
+  plan::Planner planner(machine, job.start, {.overrides = overrides, .period = a.period});
   const Checks checks = asked_for(a.checks);
   sim::Simulator simulator(job.machine, job.tools, job.start,
                            {.limits = checks.limits,
@@ -291,7 +298,8 @@ int run_command(const RunArguments& a) {
                                           .every = a.log_every,
                                           .program = a.program.program,
                                           .program_sha256 = job.inputs.front().sha256,
-                                          .machine_sha256 = machine_hash});
+                                          .machine_sha256 = machine_hash,
+                                          .feed_factors = plan::feed_factors(overrides)});
     if (!made) return fail(made.error());
     log = std::move(*made);
     simulator.add_observer(*log);

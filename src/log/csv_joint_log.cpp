@@ -313,6 +313,12 @@ std::string CsvJointLog::Impl::header() const {
   key("planner", jerk ? "third" : "second");
   key("default_p_mm", "0");
   key("default_q_mm", "0");
+  if (!options.feed_factors.empty()) {
+    std::string factors;
+    for (const double factor : options.feed_factors)
+      factors += (factors.empty() ? "" : ",") + shortest(factor);
+    key("feed_factors", factors);
+  }
   key("start_pose", pose);
   key("end_time_s", shortest(end_time));
   key("samples", std::to_string(written));

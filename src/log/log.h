@@ -18,6 +18,8 @@ struct JointLogOptions {
   std::string program;    ///< name in the header
   std::string program_sha256;
   std::string machine_sha256;
+  /// What overrides may make of the programmed feed; empty without any.
+  std::vector<double> feed_factors = {};
 };
 
 /// The most that a joint does, by differences of the rows; the machine stands before and after.

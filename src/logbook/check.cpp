@@ -49,7 +49,7 @@ Judge::Judge(const Header& header, const IdealPath& path)
   for (const Joint& joint : header.joints)
     out_.peaks.push_back({"jerk", joint.name, joint.j_max, 0, 0, 0, 0});
   out_.peaks.push_back({"feed", "", 0, 0, 0, 0, 0});
-  if (path) path_.emplace(path);
+  if (path) path_.emplace(path, header.feed_factors);
   out_.has_path = path_.has_value();
 }
 

@@ -31,6 +31,7 @@ struct Header {
   double period = 0;    ///< s
   double end_time = 0;  ///< s
   std::uint64_t every = 1, samples = 0;
+  std::vector<double> feed_factors = {1};  ///< what overrides may make of the programmed feed
 };
 
 /// One row of a log.

@@ -151,7 +151,10 @@ void PathCheck::drop_before(std::size_t own, Check& out) {
 void PathCheck::check_feed(const Row& row, const Piece& piece, Check& out) {
   if (piece.ideal.block != row.block() || !(piece.ideal.feed > 0) || feed_told_) return;
   if (row.motion() != 2 && row.motion() != 3) return;
-  if (std::abs(row.feed_command() - piece.ideal.feed) <= feed_share * piece.ideal.feed) return;
+  for (const double factor : factors_) {
+    const double feed = factor * piece.ideal.feed;
+    if (std::abs(row.feed_command() - feed) <= feed_share * feed) return;
+  }
   feed_told_ = true;
   add_problem(out, "the feed of " + place(piece.ideal) + " is " + shortest(60 * piece.ideal.feed) +
                        " a minute in the program and " + shortest(60 * row.feed_command()) +

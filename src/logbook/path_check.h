@@ -9,7 +9,9 @@ namespace aircut::logbook {
 
 class PathCheck {
  public:
-  explicit PathCheck(IdealPath next) : next_(std::move(next)) {}
+  /// `factors`: what overrides may have made of the programmed feed.
+  PathCheck(IdealPath next, std::vector<double> factors)
+      : next_(std::move(next)), factors_(std::move(factors)) {}
 
   void row(const Row& row, Check& out);
   /// After the last row.
@@ -27,6 +29,7 @@ class PathCheck {
   void check_feed(const Row& row, const Piece& piece, Check& out);
 
   IdealPath next_;
+  std::vector<double> factors_;
   bool ended_ = false;
   std::deque<Piece> pieces_;  ///< around the row's block
   bool has_last_ = false;

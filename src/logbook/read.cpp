@@ -209,6 +209,16 @@ Expected<void> Reader::read_keys() {
   header_.end_time = *end;
   header_.every = static_cast<std::uint64_t>(*every);
   header_.samples = static_cast<std::uint64_t>(*samples);
+  if (const auto factors = header_.keys.find("feed_factors"); factors != header_.keys.end()) {
+    header_.feed_factors.clear();
+    for (const std::string& item : split_list(factors->second)) {
+      double& factor = header_.feed_factors.emplace_back();
+      if (!read_number(item, factor) || !(factor > 0))
+        return unexpected(
+            wrong_key("feed_factors",
+                      "'feed_factors' must be numbers above 0, not '" + printable(item) + "'"));
+    }
+  }
   return {};
 }
 

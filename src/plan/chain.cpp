@@ -33,8 +33,9 @@ double entry_speed(const Piece& piece, const Controllable& controllable) {
 }  // namespace
 
 Chain::Chain(std::size_t max_nodes, const machine::Kinematics& kinematics,
-             const JointLimits& limits, const machine::JointVector& start, double period)
-    : max_nodes_(max_nodes) {
+             const JointLimits& limits, const machine::JointVector& start, double period,
+             std::vector<OverrideEvent> overrides)
+    : max_nodes_(max_nodes), overrides_(std::move(overrides)) {
   if (limits.has_jerk()) jerk_.emplace(kinematics, limits, start, period);
 }
 
@@ -47,17 +48,20 @@ void Chain::push(Segment&& segment, Grid& grid, double entry, double per_exit) {
   item.piece.entry = entry;
   item.piece.per_exit = per_exit;
   item.after.clear();
+  item.factor = item.before = 1;
+  if (!overrides_.none()) {
+    set_factor(item);
+    item.before = item.factor;
+  }
   if (nodes_ >= next_try_) emit_final();
 }
 
 void Chain::push_still(Segment segment) {
   if (!window_.empty()) {
     window_.back().after.push_back(std::move(segment));
-  } else if (jerk_) {
-    jerk_->push_still(std::move(segment));
-    drain_jerk_stage();
   } else {
-    hand_out(std::move(segment));
+    hand_on_still(std::move(segment));
+    drain_jerk_stage();
   }
 }
 
@@ -67,8 +71,8 @@ void Chain::stop() {
     drain_jerk_stage();
     return;
   }
-  brake_all();
-  emit(window_.size());
+  do brake_all();
+  while (!emit(window_.size()));
   b_ = 0;
   if (jerk_) jerk_->stop();
   drain_jerk_stage();
@@ -100,34 +104,65 @@ void Chain::emit_final() {
     b_fast = fast / piece.per_exit;
   }
   if (final_count == 0 && nodes_ > max_nodes_) final_count = window_.size() / 2;
-  emit(final_count);
+  emit(final_count);  // what an event leaves is looked at again with the next try
   next_try_ = 2 * nodes_ + 512;
   if (nodes_ < max_nodes_) next_try_ = std::min(next_try_, max_nodes_ + 1);
 }
 
-// Carries out the first `count` pieces by their stop-safe pass.
-void Chain::emit(std::size_t count) {
+// Carries out the first `count` pieces by their stop-safe pass. False when an event came between:
+// then the speeds that can be braked from are others.
+bool Chain::emit(std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     Item& item = window_.front();
-    Ride ride = accelerate(item.piece.grid, item.stop, b_);
-    Segment& segment = item.piece.segment;
-    segment.profile = std::move(ride.profile);
-    segment.limited_by = ride.limited_by;
-    nodes_ -= item.piece.grid.nodes();
-    if (jerk_) {
-      jerk_->push(std::move(segment), std::move(item.piece.grid), std::sqrt(item.piece.per_exit));
-      for (Segment& still : item.after) jerk_->push_still(std::move(still));
-    } else {
-      hand_out(std::move(segment));
-      for (Segment& still : item.after) hand_out(std::move(still));
+    Ride ride;
+    if (item.factor > 0) ride = accelerate(item.piece.grid, item.stop, b_);
+    if (const bool event = interrupted(ride); event || item.factor == 0) {
+      const double until = event ? overrides_.next() : now();
+      go_until_event(std::move(ride), item.factor);
+      override_until(until);
+      drain_jerk_stage();
+      return false;
     }
-    window_.pop_front();
-    b_ = ride.b_end;
-    if (!window_.empty())
-      b_ = std::min(b_ * window_.front().piece.per_exit,
-                    std::min(window_.front().piece.entry, window_.front().stop.front()));
+    finish_front(std::move(ride), item.factor);
+    if (!window_.empty()) b_ = std::min(b_, window_.front().stop.front());
   }
   drain_jerk_stage();
+  return true;
+}
+
+// The front piece goes out whole.
+void Chain::finish_front(Ride&& ride, double factor) {
+  Item& item = window_.front();
+  const double b_end = ride.b_end;
+  nodes_ -= item.piece.grid.nodes();
+  hand_on(std::move(item.piece.segment), std::move(item.piece.grid), std::move(ride),
+          item.piece.per_exit, factor);
+  for (Segment& still : item.after) hand_on_still(std::move(still));
+  window_.pop_front();
+  b_ = b_end;
+  if (!window_.empty())
+    b_ = std::min(b_ * window_.front().piece.per_exit, window_.front().piece.entry);
+}
+
+// `factor`: of the speeds, by overrides.
+void Chain::hand_on(Segment&& segment, Grid&& grid, Ride&& ride, double per_exit, double factor) {
+  segment.profile = std::move(ride.profile);
+  segment.limited_by = ride.limited_by;
+  segment.feed *= factor;
+  segment.spindle_rpm *= overrides_.spindle(segment);
+  if (jerk_)
+    jerk_->push(std::move(segment), std::move(grid), std::sqrt(per_exit));
+  else
+    hand_out(std::move(segment));
+}
+
+void Chain::hand_on_still(Segment&& segment) {
+  // Synchronised motion is planned for the speed that is programmed.
+  if (segment.kind != MotionKind::sync) segment.spindle_rpm *= overrides_.spindle(segment);
+  if (jerk_)
+    jerk_->push_still(std::move(segment));
+  else
+    hand_out(std::move(segment));
 }
 
 void Chain::drain_jerk_stage() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "plan/jerk.h"
+#include "plan/override.h"
 #include "plan/ring.h"
 #include "plan/speed.h"
 
@@ -21,7 +22,7 @@ class Chain {
   /// The window is emitted piecewise when it holds more than this many nodes.
   /// `start`: joints at program time 0. The kinematics must outlive the chain.
   Chain(std::size_t max_nodes, const machine::Kinematics& kinematics, const JointLimits& limits,
-        const machine::JointVector& start, double period);
+        const machine::JointVector& start, double period, std::vector<OverrideEvent> overrides);
 
   /// A piece of path (see Piece). The grid is swapped with one that is no longer needed, whose
   /// memory can be used again.
@@ -39,13 +40,27 @@ class Chain {
  private:
   struct Item {
     Piece piece;
+    double factor = 1;           ///< of its speeds by overrides; 0: held
+    double before = 1;           ///< the largest since the motion was last as fast as it may be
     std::vector<Segment> after;  ///< stand-still segments behind it
     Controllable stop, fast;     ///< results of the backward passes
   };
 
   void emit_final();
   void brake_all();
-  void emit(std::size_t count);
+  bool emit(std::size_t count);
+  void hand_on(Segment&& segment, Grid&& grid, Ride&& ride, double per_exit, double factor);
+  void hand_on_still(Segment&& segment);
+  void finish_front(Ride&& ride, double factor);
+  // With overrides (chain_override.cpp):
+  bool interrupted(const Ride& ride) const;
+  void set_factor(Item& item);
+  void give_part(Ride ride, double factor);
+  void go_until_event(Ride ride, double factor);
+  void override_until(double t);
+  bool slow_down(double& t);
+  void wait_for_event();
+  double now() const;
   void hand_out(Segment&& segment);
   void drain_jerk_stage();
 
@@ -56,6 +71,7 @@ class Chain {
   double b_ = 0;      ///< squared speed at the start of the window, in its first piece's s
   double clock_ = 0;  ///< program time, s
   double turns_ = 0;
+  Overrides overrides_;            ///< as of the time now()
   std::optional<JerkStage> jerk_;  ///< when a joint has a jerk limit
   std::vector<Segment> ready_;
   std::size_t taken_ = 0;  ///< of ready_

@@ -35,8 +35,8 @@ struct Node {
   JointVector alpha, beta;
   AxisValues d;             ///< p'
   double metric_speed = 1;  ///< |p'| along the feed metric
-  double cap = infinity;
-  Cause why;
+  double cap = infinity, feed_cap = infinity, joint_cap = infinity;
+  Cause why, joint_why;
 };
 
 // The joint with the largest share of its limit.
@@ -95,14 +95,16 @@ void GridMaker::limit(Node& out) const {
   out.beta = out.joint.ddq.cwiseQuotient(limits_.a);
   out.metric_speed = metric_length(metric_, out.d);
   if (feed_ < infinity && out.metric_speed > 0) {
-    out.cap = (feed_ / out.metric_speed) * (feed_ / out.metric_speed);
+    out.cap = out.feed_cap = (feed_ / out.metric_speed) * (feed_ / out.metric_speed);
     out.why.by = LimitedBy::feed;
   }
   const JointVector shares = out.joint.dq.cwiseQuotient(limits_.v);
   const double fastest = 1 / shares.cwiseAbs().maxCoeff();
-  if (fastest * fastest < out.cap) {
-    out.cap = fastest * fastest;
-    out.why = {LimitedBy::velocity, largest_of(shares)};
+  out.joint_cap = fastest * fastest;
+  out.joint_why = {LimitedBy::velocity, largest_of(shares)};
+  if (out.joint_cap < out.cap) {
+    out.cap = out.joint_cap;
+    out.why = out.joint_why;
   }
 }
 
@@ -163,7 +165,7 @@ std::optional<double> GridMaker::row_error(const Node& a, const Node& m, const N
 
 void GridMaker::add(const Node& n, double room) {
   if (!grid_.at.empty()) grid_.at.back().room = room;
-  grid_.at.push_back({n.s, n.cap, 1, n.why});
+  grid_.at.push_back({n.s, n.cap, 1, n.why, n.feed_cap, n.joint_cap, n.joint_why});
   if (grid_.uniform) return;
   grid_.rows.insert(grid_.rows.end(), n.alpha.begin(), n.alpha.end());
   grid_.rows.insert(grid_.rows.end(), n.beta.begin(), n.beta.end());
@@ -256,6 +258,75 @@ std::optional<GridFailure> GridMaker::make(bool identity, const JointVector& nea
 }
 
 }  // namespace
+
+void scale_caps(Grid& grid, double factor) {
+  const double square = factor * factor;
+  for (GridNode& node : grid.at) {
+    if (node.feed_cap == infinity) {
+      // A rapid: a share of its own speed, never more.
+      node.cap = std::min(square, 1.0) * node.joint_cap;
+      node.why = square < 1 ? Cause{LimitedBy::feed, -1} : node.joint_why;
+      continue;
+    }
+    const bool by_feed = square * node.feed_cap <= node.joint_cap;
+    node.cap = by_feed ? square * node.feed_cap : node.joint_cap;
+    node.why = by_feed ? Cause{LimitedBy::feed, -1} : node.joint_why;
+  }
+}
+
+namespace {
+
+// The node at s, between nodes k and k + 1, and its rows at the end of `rows`.
+GridNode node_at(const Grid& grid, std::size_t k, double s, std::vector<double>& rows) {
+  const GridNode &a = grid.at[k], &b = grid.at[k + 1];
+  const double f = (s - a.s) / (b.s - a.s);
+  const auto between = [f](double x, double y) { return x == y ? x : x + f * (y - x); };
+  GridNode out = f < 0.5 ? a : b;
+  out.s = s;
+  out.cap = between(a.cap, b.cap);
+  out.feed_cap = between(a.feed_cap, b.feed_cap);
+  out.joint_cap = between(a.joint_cap, b.joint_cap);
+  out.room = a.room;
+  if (!grid.uniform)
+    for (int i = 0; i < 2 * grid.joints; ++i)
+      rows.push_back(between(grid.alpha(k)[i], grid.alpha(k + 1)[i]));
+  return out;
+}
+
+std::size_t interval_of(const Grid& grid, double s) {
+  std::size_t k = 0;
+  while (k + 2 < grid.nodes() && grid.at[k + 1].s <= s) ++k;
+  return k;
+}
+
+}  // namespace
+
+Grid grid_before(const Grid& grid, double s) {
+  const std::size_t k = interval_of(grid, s);
+  Grid out = grid;
+  const std::size_t kept = grid.at[k].s < s - same_node * grid.length() || k == 0 ? k + 1 : k;
+  out.at.resize(kept);
+  if (!grid.uniform) out.rows.resize(kept * 2 * static_cast<std::size_t>(grid.joints));
+  const GridNode end = node_at(grid, k, s, out.rows);
+  out.at.push_back(end);
+  return out;
+}
+
+Grid grid_behind(const Grid& grid, double s) {
+  const std::size_t k = interval_of(grid, s);
+  Grid out = grid;
+  out.at.clear();
+  out.rows.clear();
+  const GridNode begin = node_at(grid, k, s, out.rows);
+  out.at.push_back(begin);
+  const bool skip = grid.at[k + 1].s < s + same_node * grid.length() && k + 2 < grid.nodes();
+  const std::size_t next = skip ? k + 2 : k + 1;
+  out.at.insert(out.at.end(), grid.at.begin() + static_cast<std::ptrdiff_t>(next), grid.at.end());
+  if (!grid.uniform)
+    out.rows.insert(out.rows.end(), grid.alpha(next), grid.rows.data() + grid.rows.size());
+  for (GridNode& node : out.at) node.s -= s;
+  return out;
+}
 
 std::optional<GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
                                      Metric metric, double feed, const AxisValues& tool_offset,

@@ -18,7 +18,9 @@ struct GridNode {
   double s = 0;
   double cap = 0;   ///< largest b by feed and joint speeds
   double room = 1;  ///< of the interval behind: 1 minus what its rows can be wrong between nodes
-  Cause why;        ///< what caps the speed
+  Cause why = {};   ///< what caps the speed
+  double feed_cap = 0, joint_cap = 0;  ///< by either alone, without overrides
+  Cause joint_why = {};                ///< whose speed joint_cap is of
 };
 
 /// Nodes of one piece. `b` is the squared path speed.
@@ -42,6 +44,15 @@ struct Grid {
   }
   const double* beta(std::size_t node) const { return alpha(node) + joints; }
 };
+
+/// Caps for `factor` times the feed, or that share of a rapid's speed. Nothing to do for 1.
+void scale_caps(Grid& grid, double factor);
+/// Nodes nearer than this share of the length to a place where the grid is cut fall together with
+/// it.
+inline constexpr double same_node = 1e-9;
+/// The parts of a grid before and behind `s`, with a node there.
+Grid grid_before(const Grid& grid, double s);
+Grid grid_behind(const Grid& grid, double s);
 
 /// How a piece joins its neighbours.
 struct GridEnds {

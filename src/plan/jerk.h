@@ -23,6 +23,8 @@ class JerkStage {
   void push_still(Segment segment);
   /// The last piece ends at rest.
   void stop();
+  /// Program time at the end of all that came in; of what is not final without its jerk limit.
+  double time_given() const { return clock_ + waiting_; }
   /// Segments whose time law is final, in order.
   std::vector<Segment> take();
 

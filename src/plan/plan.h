@@ -140,6 +140,15 @@ struct Sync {
   double sense = 1;  ///< of the spindle where it follows: 1 = clockwise
 };
 
+/// Which overrides count for a motion (M48 to M53).
+struct Overridable {
+  bool feed = true;  ///< and the rapids'
+  bool spindle = true;
+  bool hold = true;
+  bool adaptive = false;
+  bool per_revolution = false;  ///< G95: a slower spindle makes a slower feed
+};
+
 /// One command carried out: a piece of path with its time law. Commands that do not move give a
 /// segment with a Hold and the time they take (0 for most), so every command reaches the listeners
 /// in order.
@@ -158,6 +167,7 @@ struct Segment {
   int work_system = 1;       ///< 1 = G54 … 9 = G59.3
   /// The part of the block's path that this segment covers (a block may be split by blends).
   double u0 = 0, u1 = 1;
+  Overridable overridable;
   Cause limited_by;          ///< what held the speed longest
   std::optional<Sync> sync;  ///< of synchronised motion
   std::string sync_problem;  ///< why the axis can't keep to the spindle; empty = it can
@@ -173,7 +183,23 @@ struct Segment {
 double spindle_turns(const Segment& segment, double t);
 double spindle_rpm(const Segment& segment, double t);
 
+/// What somebody does at the control's panel: from `t` on (program time, s) a factor of the
+/// programmed speed, or the motion held and going on.
+struct OverrideEvent {
+  enum class What : unsigned char { feed, rapid, spindle, adaptive, hold, resume };
+  double t = 0;
+  What what = What::feed;
+  double factor = 1;  ///< 0 or more; 0 holds what it counts for
+};
+
+/// What is wrong with a list of events; empty: nothing.
+std::string wrong_overrides(const std::vector<OverrideEvent>& events);
+/// Every factor that the feed of a motion can have by these events; empty without events.
+std::vector<double> feed_factors(const std::vector<OverrideEvent>& events);
+
 struct Options {
+  /// In order of time. What is held must be let go again by a later event.
+  std::vector<OverrideEvent> overrides = {};
   double period = 0.001;           ///< servo period, s
   double optional_stop = 0;        ///< s
   int tool = 0;                    ///< in the spindle at the start

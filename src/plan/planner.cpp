@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "plan/merger.h"
+#include "plan/override.h"
 #include "plan/spline.h"
 #include "plan/sync.h"
 
@@ -19,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class Planner::Impl {
  public:
-  Impl(const machine::Machine& machine, const machine::JointVector& start, Options options);
+  Impl(const machine::Machine& machine, const machine::JointVector& start, const Options& options);
 
   Expected<void> push(const canon::Command& command);
   void flush() { merger_.stop(); }
@@ -59,6 +60,7 @@ class Planner::Impl {
   canon::SpindleTurn spindle_turn_ = canon::SpindleTurn::stop;
   int tool_ = 0;
   int work_system_ = 1;
+  Overridable overridable_;
 };
 
 namespace {
@@ -70,10 +72,10 @@ Diagnostic at(const canon::Command& command, std::string kind, std::string messa
 }  // namespace
 
 Planner::Impl::Impl(const machine::Machine& machine, const machine::JointVector& start,
-                    Options options)
+                    const Options& options)
     : machine_(machine),
       options_(options),
-      shaper_(machine, start, options.period, options.max_nodes),
+      shaper_(machine, start, options),
       merger_(shaper_),
       tool_(options.tool) {
   if (start.size() != machine.joint_count()) {
@@ -88,6 +90,8 @@ Planner::Impl::Impl(const machine::Machine& machine, const machine::JointVector&
       broken_ = make_error("machine_invalid",
                            "joint " + joint.name + " needs vmax and amax above 0 to be moved");
   }
+  if (const auto wrong = wrong_overrides(options.overrides); !wrong.empty())
+    broken_ = make_error("overrides_invalid", wrong);
   auto tip = machine.kinematics().forward(start, tool_offset_);
   if (tip)
     tip_ = *tip;
@@ -116,6 +120,8 @@ Segment Planner::Impl::segment(const canon::Command& command, MotionKind kind) c
   out.tool = tool_;
   out.spindle_rpm = rpm();
   out.work_system = work_system_;
+  out.overridable = overridable_;
+  out.overridable.per_revolution = feed_mode_ == canon::FeedMode::per_revolution;
   return out;
 }
 
@@ -264,6 +270,7 @@ Expected<void> Planner::Impl::sync(const canon::Command& command, const canon::S
   const auto go = [&](const AxisValues& end, double u0, double u1) {
     Move out;
     out.segment = segment(command, MotionKind::sync);
+    out.segment.overridable = {false, false, false, false, false};
     out.segment.path = make_line(tip_, end);
     out.segment.feed = speed;
     out.segment.sync_problem = u0 == 0 ? problem : std::string{};
@@ -418,7 +425,14 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
             return done;
           },
           [&](const canon::Coolant&) { return barrier(command); },
-          [&](const canon::Override&) { return still(command); },
+          [&](const canon::Override& c) {
+            using Kind = canon::Override::Kind;
+            if (c.kind == Kind::feed) overridable_.feed = c.enabled;
+            if (c.kind == Kind::speed && c.spindle == 0) overridable_.spindle = c.enabled;
+            if (c.kind == Kind::feed_hold) overridable_.hold = c.enabled;
+            if (c.kind == Kind::adaptive_feed) overridable_.adaptive = c.enabled;
+            return still(command);
+          },
           [&](const canon::DigitalOutput& c) {
             return c.with_motion ? still(command) : barrier(command);
           },

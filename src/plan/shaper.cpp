@@ -55,12 +55,12 @@ JointLimits limits_of(const machine::Machine& machine) {
 
 }  // namespace
 
-Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, double period,
-               std::size_t max_nodes)
+Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, const Options& options)
     : machine_(machine),
       limits_(limits_of(machine)),
-      period_(period),
-      chain_(max_nodes, machine.kinematics(), limits_, start, period),
+      period_(options.period),
+      chain_(options.max_nodes, machine.kinematics(), limits_, start, options.period,
+             options.overrides),
       linear_joints_(machine.kinematics().type() == "identity"),
       joints_(std::move(start)),
       scratch_(std::max(machine.tree().size(), static_cast<std::size_t>(machine.joint_count()) +
@@ -349,7 +349,7 @@ void Shaper::append(Segment&& segment) {
     const machine::JointVector jump =
         (grid.dq_start - dq_end_ / scale).cwiseQuotient(limits_.a) / (jump_share * period_);
     const double fastest = 1 / jump.cwiseAbs().maxCoeff();
-    entry = std::min({fastest * fastest, grid.at.front().cap, jerk_entry(scale)});
+    entry = std::min(fastest * fastest, jerk_entry(scale));
     // So slow that standing still for a moment costs nothing.
     if (entry < 1e-6 * grid.at.front().cap) entry = 0;
   }

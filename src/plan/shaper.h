@@ -28,8 +28,7 @@ struct Move {
 
 class Shaper {
  public:
-  Shaper(const machine::Machine& machine, machine::JointVector start, double period,
-         std::size_t max_nodes);
+  Shaper(const machine::Machine& machine, machine::JointVector start, const Options& options);
 
   void push(Move move);
   /// A segment without way that the motion does not wait for.

@@ -58,6 +58,12 @@ class Interval {
     return b;
   }
 
+  // Smallest u at b: the hardest braking that does not run backwards.
+  double smallest_u(double b) const {
+    const Room room = room_at(b);
+    return room.high >= room.low ? room.low : (room.high + room.low) / 2;
+  }
+
   // Largest u at b; at a vertex, where rounding can leave nothing, the middle of the crossing.
   double largest_u(double b) const {
     const Room room = room_at(b);
@@ -233,6 +239,43 @@ void brake(const Grid& grid, double b_end, Controllable& out) {
                  ? cap
                  : Interval(grid, k, next).largest_b();
   }
+}
+
+Descent descend(const Grid& grid, const Controllable& controllable, double b_start) {
+  Descent out;
+  RideMaker maker;
+  double b = b_start;
+  const auto go = [&](double ds, double next, Cause cause) {
+    maker.go(ds, b, next, cause);
+    b = next;
+  };
+  if (grid.uniform) {
+    // Both fall with the same slope; only the cap can be met on the way.
+    const double a = grid.uniform_a, cap = grid.at.front().cap;
+    const bool meets = b_start <= controllable.back() + 2 * a * grid.length() * (1 + 1e-12);
+    const double way = std::max((b_start - cap) / (2 * a), 0.0);
+    out.done = meets && way < grid.length();
+    const double ds = out.done ? way : grid.length();
+    go(ds, out.done ? cap : std::max(b_start - 2 * a * ds, 0.0),
+       {LimitedBy::acceleration, grid.uniform_joint});
+  } else {
+    for (std::size_t k = 0; k + 1 < grid.nodes() && !out.done; ++k) {
+      const double ds = grid.at[k + 1].s - grid.at[k].s;
+      const double u = Interval(grid, k, infinity).smallest_u(b);
+      const double next = std::max(b + 2 * u * ds, 0.0);
+      const double over = b - controllable[k], later = next - controllable[k + 1];
+      const double f = over <= 0 ? 0 : later <= 0 ? over / (over - later) : 1;
+      out.done = over <= 0 || later <= 0;
+      const Cause cause = cause_at(grid, k, b, next, u);
+      if (out.done && f > 1 - 1e-9)
+        go(ds, std::min(next, controllable[k + 1]), cause);
+      else
+        go(f * ds, b + f * (next - b), cause);
+    }
+  }
+  out.s = maker.s;
+  out.ride = maker.finish(maker.s, b);
+  return out;
 }
 
 Ride accelerate(const Grid& grid, const Controllable& controllable, double b_start) {

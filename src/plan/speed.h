@@ -34,6 +34,15 @@ struct Ride {
   Cause limited_by;  ///< longest
 };
 
+/// The ride from b_start that slows down as fast as the limits allow, up to where `controllable` is
+/// not passed any more, or to the end. `ride.b_end` is the squared speed there.
+struct Descent {
+  Ride ride;
+  double s = 0;       ///< its way
+  bool done = false;  ///< slow enough there
+};
+Descent descend(const Grid& grid, const Controllable& controllable, double b_start);
+
 /// The fastest ride from b_start, given what brake() found.
 Ride accelerate(const Grid& grid, const Controllable& controllable, double b_start);
 

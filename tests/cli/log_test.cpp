@@ -9,13 +9,13 @@ namespace {
 
 struct LogCommand : Program {
   // A short program with corners, an arc and a helix, run on a mill; the log is at log().
-  void run_part(const std::string& mode = "G64 P0.02") {
+  void run_part(const std::string& mode = "G64 P0.02", const std::string& options = "") {
     put("part.ngc", "G21 G90 G17 G54 " + mode +
                         "\nT5 M6\nG43 H5\nS3000 M3\nG0 X10 Y10 Z20\nG1 Z10 F900\nX40\nY30\n"
                         "G2 X20 Y10 I-20 J0\nG3 X20 Y10 Z8 I5 J0\nG1 X10 Y20 F1200\nX60 Y40\n"
                         "G0 Z20\nM5\nM2\n");
     const Outcome run =
-        aircut("run " + path("part.ngc") + " -m mill3 --check syntax --log " + log());
+        aircut("run " + path("part.ngc") + " -m mill3 --check syntax --log " + log() + options);
     ASSERT_TRUE(std::filesystem::exists(log())) << run.err << run.out;
   }
   std::string log() const { return path("joints.csv"); }
@@ -41,6 +41,34 @@ TEST_F(LogCommand, KeepsToThePathInExactMode) {
   const Outcome good =
       aircut("log check " + log() + " --program " + path("part.ngc") + " -m mill3");
   EXPECT_EQ(good.code, 0) << good.out << good.err;
+}
+
+TEST_F(LogCommand, ChecksARunWithOverridesByTheirFactors) {
+  put("panel.toml",
+      "[[event]]\nt = 3\nfeed = 50\nrapid = 25\n[[event]]\nt = 4\nhold = true\n"
+      "[[event]]\nt = 5.5\nhold = false\nspindle = 110\n");
+  run_part("G64 P0.02", " --overrides " + path("panel.toml"));
+  EXPECT_NE(text_of(log()).find("# feed_factors=0.5,"), std::string::npos);
+  const Outcome good =
+      aircut("log check " + log() + " --program " + path("part.ngc") + " -m mill3");
+  EXPECT_EQ(good.code, 0) << good.out << good.err;
+}
+
+TEST_F(LogCommand, RefusesOverridesThatHoldForEverOrSayNothing) {
+  const std::pair<std::string, std::string> wrong[] = {
+      {"[[event]]\nt = 3\nhold = true\n", "never goes on"},
+      {"[[event]]\nt = 3\n", "needs at least one of"},
+      {"[[event]]\nt = 3\nfeed = -5\n", "bad.toml:3:8"},
+      {"[[event]]\nt = 3\nfed = 50\n", "feed"},
+      {"[[event]]\nt = 3\nfeed = 50\n[[event]]\nt = 1\nfeed = 60\n", "bad.toml:5:5"}};
+  put("part.ngc", "G21 G90 F100\nG1 X1\nM2\n");
+  for (const auto& [text, message] : wrong) {
+    put("bad.toml", text);
+    const Outcome bad =
+        aircut("run " + path("part.ngc") + " -m mill3 --overrides " + path("bad.toml"));
+    EXPECT_EQ(bad.code, 2) << text;
+    EXPECT_TRUE(bad.says("overrides_invalid") && bad.says(message)) << bad.err;
+  }
 }
 
 TEST_F(LogCommand, FindsARowThatJumps) {
