@@ -1,7 +1,7 @@
 // Inserts of lathe tools.
 //
 //   X                front angle a: an edge leaves the nose along (sin a, cos a) in (X, Z)
-//   |     \
+//   |     \          .
 //   |      \ edge
 //   |  .-.  \         The edges touch the nose from outside, so their far ends lie a radius
 //   | ( o )___\       beside the lines from its middle. Where that middle is, seen from the
