@@ -229,8 +229,8 @@ Expected<std::shared_ptr<const Machine>> read_machine(const std::string& path, S
 }
 
 Expected<std::shared_ptr<const Machine>> read_machine(const SourceText& text,
-                                                      const std::string& folder,
-                                                      SourceMap& sources, Diagnostics& out,
+                                                      const std::string& folder, SourceMap& sources,
+                                                      Diagnostics& out,
                                                       const std::string& channel) {
   return read_machine_text(text, folder, disk_files(folder, sources), out, channel);
 }
