@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cli/accuracy_arguments.h"
 #include "cli/exit_code.h"
 #include "cli/log_arguments.h"
 
@@ -171,6 +172,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   MachineArguments machine;
   KinArguments kin;
   WorkspaceArguments workspace;
+  AccuracyArguments accuracy;
   LogArguments log;
   DiffArguments diff;
   ExplainArguments explain;
@@ -444,6 +446,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_workspace->add_flag("--connected", workspace.connected,
                         "only what is connected with home by neighbouring points");
   add_color(c_workspace, workspace.color);
+  CLI::App* c_accuracy = add_accuracy(app, accuracy);
   CLI::App* c_log = add_log(app, log);
   CLI::App* c_diff = add_diff(app, diff);
 
@@ -562,6 +565,12 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     return Arguments(kin);
   }
   if (c_workspace->parsed()) return Arguments(workspace);
+  if (c_accuracy->parsed()) {
+    if ((!accuracy.plot.empty() || !accuracy.of.empty()) && accuracy.sweep.empty())
+      return usage_error(make_error("usage", "--plot and --of draw a --sweep; name what changes"),
+                         active()->get_name());
+    return Arguments(accuracy);
+  }
   if (c_log->parsed()) return Arguments(log);
   if (c_diff->parsed()) return Arguments(diff);
   if (c_explain->parsed()) {

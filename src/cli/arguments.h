@@ -130,6 +130,18 @@ struct LogArguments {
   std::string color_word = "auto";
 };
 
+struct AccuracyArguments {
+  std::string setup;
+  Format format = Format::human;  ///< human or json
+  std::string folder;             ///< -o
+  bool force = false;
+  bool influence = false;          ///< E_kl in the JSON
+  std::vector<std::string> sweep;  ///< as written
+  std::string of;                  ///< column of the sweep that is drawn
+  std::string plot;                ///< PNG file of the sweep
+  When color = When::automatic;
+};
+
 struct DiffArguments {
   std::string one, two;
   ProgramArguments program;  ///< `program` unused
@@ -145,8 +157,8 @@ struct ExplainArguments {
 struct DoctorArguments {};
 
 using Arguments = std::variant<RunArguments, CheckArguments, TraceArguments, MachineArguments,
-                               KinArguments, WorkspaceArguments, LogArguments, DiffArguments,
-                               ExplainArguments, DoctorArguments>;
+                               KinArguments, WorkspaceArguments, AccuracyArguments, LogArguments,
+                               DiffArguments, ExplainArguments, DoctorArguments>;
 
 /// Either what to do, or the exit code when the command line was answered (help, version, usage).
 std::variant<Arguments, int> parse(int argc, char** argv);

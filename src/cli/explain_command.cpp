@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "accuracy/accuracy.h"
 #include "cli/exit_code.h"
 #include "cli/job.h"
 #include "cli/print_report.h"
@@ -76,6 +77,7 @@ std::vector<KindText> all_kinds() {
   add(urdf::kinds());
   add(sim::finding_kinds());
   add(semantics::semantic_kinds());
+  add(accuracy::kinds());
   std::stable_sort(out.begin(), out.end(), [](const KindText& a, const KindText& b) {
     return std::string_view(a.kind) < std::string_view(b.kind);
   });

@@ -77,6 +77,9 @@ interp::Options interpreter_options(const Job& job, const ProgramArguments& argu
 /// Opens called sub files.
 SourceReader sub_reader(SourceMap& sources);
 
+/// Makes an output folder, or takes an empty one; with `force` any. Error kind `output_failed`.
+Expected<void> make_folder(const std::string& folder, bool force);
+
 bool use_color(When when, int descriptor);
 /// Prints diagnostics on stderr.
 void print_errors(const Diagnostics& diagnostics, When color);
@@ -90,6 +93,7 @@ int import_command(const MachineArguments& arguments);
 int new_command(const MachineArguments& arguments);
 int kin_command(const KinArguments& arguments);
 int workspace_command(const WorkspaceArguments& arguments);
+int accuracy_command(const AccuracyArguments& arguments);
 int rot_command(const KinArguments& arguments);
 int log_command(const LogArguments& arguments);
 int diff_command(const DiffArguments& arguments);

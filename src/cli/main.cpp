@@ -21,6 +21,7 @@ int main(int argc, char** argv) {
                        [](const MachineArguments& a) { return machine_command(a); },
                        [](const KinArguments& a) { return kin_command(a); },
                        [](const WorkspaceArguments& a) { return workspace_command(a); },
+                       [](const AccuracyArguments& a) { return accuracy_command(a); },
                        [](const LogArguments& a) { return log_command(a); },
                        [](const DiffArguments& a) { return diff_command(a); },
                        [](const ExplainArguments& a) { return explain_command(a); },

@@ -87,8 +87,9 @@ class Progress {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_ = start_;
 };
 
-// The output folder: made, or emptied of what an earlier run listed in its result.json.
-Expected<void> prepare_folder(const std::string& folder, bool force) {
+}  // namespace
+
+Expected<void> make_folder(const std::string& folder, bool force) {
   const auto fail = [&](const std::string& why) {
     return unexpected(
         make_error("output_failed", "can't write into '" + printable(folder) + "': " + why));
@@ -101,6 +102,21 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
           "the folder exists and is not empty; name another one, or use --force to replace an "
           "earlier run's files");
     if (::access(folder.c_str(), W_OK) != 0) return fail(std::strerror(errno));
+    return {};
+  }
+  fs::create_directories(folder, error);
+  if (error) return fail(error.message());
+  return {};
+}
+
+namespace {
+
+// The output folder of a run: made, or emptied of what an earlier run listed in its result.json.
+Expected<void> prepare_folder(const std::string& folder, bool force) {
+  std::error_code error;
+  const bool exists = fs::exists(folder, error);
+  if (auto made = make_folder(folder, force); !made) return made;
+  if (exists) {
     // Without result.json the folder is known to be incomplete.
     fs::remove(folder + "/result.json", error);
     fs::remove(folder + "/joints.csv", error);
@@ -112,10 +128,7 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
     if (fs::is_directory(folder + "/frames", error))
       for (const auto& entry : fs::directory_iterator(folder + "/frames", error))
         if (entry.path().extension() == ".png") fs::remove(entry.path(), error);
-    return {};
   }
-  fs::create_directories(folder, error);
-  if (error) return fail(error.message());
   return {};
 }
 

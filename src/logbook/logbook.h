@@ -173,4 +173,17 @@ struct PlotOptions {
 /// A PNG file: joints, feed, shares of the limits, and what limited the speed, over time.
 Expected<std::string> plot(const SourceText& log, const PlotOptions& options);
 
+/// A line of a diagram, its points with rising x.
+struct Curve {
+  std::string name;
+  std::vector<std::pair<double, double>> points;
+};
+struct Diagram {
+  std::string title, x_name, y_name;
+  std::vector<Curve> curves;
+  int width = 900, height = 560;
+};
+/// A PNG file: the curves over one pair of axes, named on the right.
+Expected<std::string> draw(const Diagram& diagram);
+
 }  // namespace aircut::logbook

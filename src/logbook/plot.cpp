@@ -10,20 +10,13 @@
 
 #include "logbook/canvas.h"
 #include "logbook/logbook.h"
+#include "logbook/scale.h"
 
 namespace aircut::logbook {
 namespace {
 
 constexpr double left = 96, right = 150, top = 78, gap = 26, joint_height = 74, panel_height = 120;
-constexpr Colour black{0.1, 0.1, 0.1}, grey{0.5, 0.5, 0.5}, pale{0.9, 0.9, 0.9}, red{0.8, 0.1, 0.1};
-// Okabe and Ito's colours, which most colour-blind people can tell apart.
-constexpr std::array<Colour, 7> colours = {{{0.0, 0.45, 0.70},
-                                            {0.84, 0.37, 0.0},
-                                            {0.0, 0.62, 0.45},
-                                            {0.80, 0.47, 0.65},
-                                            {0.90, 0.62, 0.0},
-                                            {0.34, 0.71, 0.91},
-                                            {0.35, 0.35, 0.35}}};
+constexpr Colour red{0.8, 0.1, 0.1};
 struct Sort {
   const char* name;
   Colour colour;
@@ -94,23 +87,6 @@ struct Band {
   std::vector<std::array<std::uint32_t, N>> counts;
   std::array<bool, N> seen{};
 };
-
-// A step of 1, 2 or 5 times a power of ten, about `wanted`.
-double nice_step(double wanted) {
-  if (!(wanted > 0)) return 1;
-  const double power = std::pow(10, std::floor(std::log10(wanted)));
-  for (const double f : {1.0, 2.0, 5.0})
-    if (f * power >= wanted * 0.999) return f * power;
-  return 10 * power;
-}
-
-// With as many decimals as steps of that size need.
-std::string number(double value, double step) {
-  const int decimals =
-      step >= 1 ? 0 : std::min(9, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
-  std::string out = fixed(value, decimals);
-  return out.find_first_not_of("-0.") == std::string::npos ? "0" : out;
-}
 
 class Plot {
  public:
