@@ -445,6 +445,11 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_workspace->add_flag("--nodes", workspace.nodes, "points at the ends of the ranges, not cells");
   c_workspace->add_flag("--connected", workspace.connected,
                         "only what is connected with home by neighbouring points");
+  c_workspace
+      ->add_option("-o,--out", workspace.output,
+                   "the points (.csv, .npy) or the solid of what is reached (.stl); repeatable")
+      ->type_name("FILE");
+  c_workspace->add_flag("--force", workspace.force, "replace files that exist");
   add_color(c_workspace, workspace.color);
   CLI::App* c_accuracy = add_accuracy(app, accuracy);
   CLI::App* c_log = add_log(app, log);

@@ -112,6 +112,8 @@ struct WorkspaceArguments {
   std::string a, b;     ///< tilts that each point must allow
   double pitch = 10;
   bool nodes = false, connected = false;
+  std::vector<std::string> output;  ///< .csv, .npy, .stl
+  bool force = false;
   When color = When::automatic;
 };
 

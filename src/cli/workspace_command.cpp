@@ -1,12 +1,13 @@
 // `aircut workspace`: what a machine reaches, on a grid: share, volume, extent, largest box.
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
 
 #include "cli/exit_code.h"
 #include "cli/job.h"
 #include "cli/rows.h"
-#include "machine/workspace/workspace.h"
+#include "machine/workspace/workspace_files.h"
 
 namespace aircut::cli {
 
@@ -88,6 +89,33 @@ void print_workspace(const machine::Machine& machine, const machine::Workspace& 
   }
 }
 
+// Nothing of what can be wrong with an output is found after the search.
+Expected<void> check_outputs(const WorkspaceArguments& a) {
+  for (const std::string& path : a.output) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    if (ending != ".csv" && ending != ".npy" && ending != ".stl")
+      return unexpected(make_error(
+          "usage", "the name of '" + printable(path) + "' must end in .csv, .npy or .stl"));
+    std::error_code error;
+    if (std::filesystem::exists(path, error) && !a.force)
+      return unexpected(
+          make_error("output_failed", "'" + printable(path) + "' exists; use --force"));
+  }
+  return {};
+}
+
+Expected<void> write_outputs(const WorkspaceArguments& a, const machine::Workspace& workspace) {
+  for (const std::string& path : a.output) {
+    const std::string ending = std::filesystem::path(path).extension().string();
+    const std::string bytes = ending == ".csv"   ? machine::workspace_csv(workspace)
+                              : ending == ".npy" ? machine::workspace_npy(workspace)
+                                                 : stl_bytes(machine::workspace_solid(workspace));
+    if (auto written = write_file(path, bytes); !written) return written;
+    std::printf("  written      %s\n", printable(path).c_str());
+  }
+  return {};
+}
+
 }  // namespace
 
 int workspace_command(const WorkspaceArguments& a) {
@@ -95,6 +123,8 @@ int workspace_command(const WorkspaceArguments& a) {
     print_error(make_error(kind, message), a.color);
     return code(ExitCode::unknown);
   };
+  if (const auto good = check_outputs(a); !good)
+    return fail(good.error().kind, good.error().message);
   Job job;
   ProgramArguments inputs;
   inputs.machine = a.machine;
@@ -145,6 +175,8 @@ int workspace_command(const WorkspaceArguments& a) {
       return fail("input", "the point of the grid that is nearest to home is not reached");
   }
   print_workspace(machine, *workspace, query);
+  if (const auto written = write_outputs(a, *workspace); !written)
+    return fail(written.error().kind, written.error().message);
   return code(workspace->reached() > 0 ? ExitCode::pass : ExitCode::fail);
 }
 

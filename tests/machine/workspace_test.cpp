@@ -1,11 +1,10 @@
 // Workspaces: what is read from a grid against brute force, and the published areas and boxes.
-#include "machine/workspace/workspace.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "machine/random.h"
+#include "machine/workspace/workspace_files.h"
 
 namespace aircut::machine {
 namespace {
@@ -138,6 +137,27 @@ TEST(Workspace, RefusesAGridThatIsTooFine) {
   query.pitch = 0.01;
   query.high.y() = 500;
   EXPECT_FALSE(Workspace::of(*package("mill3"), query));
+}
+
+// An L of three cells.
+Workspace small_l() {
+  return Workspace::by({2, 2, 1}, [](int i, int j, int) { return i == 0 || j == 0; });
+}
+
+TEST(WorkspaceFiles, HaveEveryPointXFastest) {
+  EXPECT_EQ(workspace_csv(small_l()),
+            "x_mm,y_mm,z_mm,reached\n0,0,0,1\n1,0,0,1\n0,1,0,1\n1,1,0,0\n");
+  const std::string npy = workspace_npy(small_l());
+  EXPECT_EQ(npy.substr(0, 6), "\x93NUMPY");
+  EXPECT_NE(npy.find("'shape': (1, 2, 2)"), npy.npos);
+  EXPECT_EQ((npy.size() - 4) % 64, 0u);
+  EXPECT_EQ(npy.substr(npy.size() - 4), std::string("\1\1\1\0", 4));
+}
+
+TEST(WorkspaceFiles, SolidIsClosedAndHasTheVolumeOfItsCells) {
+  const TriangleMesh solid = welded(workspace_solid(small_l()));
+  EXPECT_NEAR(volume(solid), 3, 1e-12);
+  for (const Shell& shell : shells(solid)) EXPECT_TRUE(shell.closed);
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class Workspace {
   /// For tests of what is read from it: in and out by a function of the places.
   template <class In>
   static Workspace by(const std::array<int, 3>& count, In&& in) {
-    Workspace w;
+    Workspace w;  // its points are 1 mm apart, the first one at the origin
     w.count_ = count;
     for (int k = 0; k < count[2]; ++k)
       for (int j = 0; j < count[1]; ++j)
@@ -40,6 +40,7 @@ class Workspace {
   }
 
   const std::array<int, 3>& count() const { return count_; }
+  double pitch() const { return pitch_; }
   long points() const { return static_cast<long>(bits_.size()); }
   bool in(int i, int j, int k) const { return bits_[at(i, j, k)] != 0; }
   Vec3 place(int i, int j, int k) const;
