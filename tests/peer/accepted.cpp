@@ -200,6 +200,7 @@ class Rules {
   std::optional<Excuse> other_rates() const;
   std::optional<Excuse> stand_in_tool() const;
   std::optional<Excuse> stand_in_unit() const;
+  std::optional<Excuse> stand_in_reload() const;
   bool same_call() const;
   std::optional<Excuse> rounding() const;
 
@@ -273,6 +274,18 @@ std::optional<Excuse> Rules::stand_in_tool() const {
 }
 
 // The stand-in gives the length offset of the old unit back as if it were in the new one.
+std::optional<Excuse> Rules::stand_in_reload() const {
+  static const std::regex reload(R"(^.*G\s*10[^0-9.].*L\s*0+(\.0*)?([^0-9.].*)?$)",
+                                 std::regex::icase);
+  if (!same_call() || !acted(own_, {"G10"}) || !acted(own_, {"G43", "G43.1", "G43.2"}))
+    return std::nullopt;
+  const std::string rest = without(program_, [&](std::size_t, const std::string& line) {
+    return std::regex_match(line, reload);
+  });
+  if (rest.empty()) return std::nullopt;
+  return Excuse{"the point behind G10 L0", rest};
+}
+
 std::optional<Excuse> Rules::stand_in_unit() const {
   if (!same_call() || !acted(own_, {"G20", "G21"}) || !acted(own_, {"G49", "G43.1", "G43.2"}) ||
       !acted(own_, {"G43", "G43.1", "G43.2"}))
@@ -306,7 +319,7 @@ std::optional<Excuse> Rules::rounding() const {
 std::optional<Excuse> Rules::excuse() const {
   for (const auto rule :
        {&Rules::refused_here, &Rules::refused_there, &Rules::unreadable_line, &Rules::other_rates,
-        &Rules::stand_in_tool, &Rules::stand_in_unit, &Rules::rounding})
+        &Rules::stand_in_tool, &Rules::stand_in_unit, &Rules::stand_in_reload, &Rules::rounding})
     if (auto found = (this->*rule)()) return found;
   return std::nullopt;
 }
