@@ -38,6 +38,7 @@ constexpr Rule refused_here_only[] = {
     {"G5.1 with feed", "splines without a feed"},
     {"G5.2 with feed", "splines without a feed"},
     {"in G93 every G5", "splines without a feed"},
+    {"in G93 F must be above 0", "G93 F0"},
     {"I, the speed factor of the way back", "G33.1 I"},
     {"D, the highest spindle speed, must be above 0", "G96 D0"},
     {"at the origin the angle is not defined", "a polar hole at the origin"},
