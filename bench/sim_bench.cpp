@@ -96,6 +96,20 @@ std::string program(int moves) {
   return text + "G0 Z60\nM2\n";
 }
 
+sim::Simulator::Result run_dense(DenseMachine& dense, const SourceText& text,
+                                 const sim::CheckOptions& checks, Diagnostics& diagnostics) {
+  interp::Options options;
+  options.axes = dense.machine()->kinematics().axes();
+  const machine::JointVector start = dense.machine()->home();
+  if (const auto tip = dense.machine()->kinematics().forward(start, {})) options.start = *tip;
+  interp::Interpreter interpreter(
+      text, dense.tools(), {}, options,
+      [&](const std::string& path) { return dense.sources().open(path); }, diagnostics);
+  plan::Planner planner(*dense.machine(), start, {});
+  sim::Simulator simulator(dense.machine(), dense.tools(), start, checks);
+  return sim::run(interpreter, diagnostics, planner, simulator, {});
+}
+
 void prove_five_axes(benchmark::State& state) {
   DenseMachine dense(500'000);
   const SourceText& text =
@@ -104,17 +118,8 @@ void prove_five_axes(benchmark::State& state) {
   std::size_t findings = 0;
   for (auto _ : state) {
     Diagnostics diagnostics;
-    interp::Options options;
-    options.axes = dense.machine()->kinematics().axes();
-    const machine::JointVector start = dense.machine()->home();
-    if (const auto tip = dense.machine()->kinematics().forward(start, {})) options.start = *tip;
-    interp::Interpreter interpreter(
-        text, dense.tools(), {}, options,
-        [&](const std::string& path) { return dense.sources().open(path); }, diagnostics);
-    plan::Planner planner(*dense.machine(), start, {});
-    sim::Simulator simulator(dense.machine(), dense.tools(), start,
-                             {.limits = false, .cut = false, .near = 2});
-    const auto result = sim::run(interpreter, diagnostics, planner, simulator, {});
+    const auto result =
+        run_dense(dense, text, {.limits = false, .cut = false, .near = 2}, diagnostics);
     summary = result.summary;
     findings = result.findings.size();
     if (diagnostics.errors() > 0) state.SkipWithError("the program was refused");
@@ -133,17 +138,7 @@ void plan_five_axes(benchmark::State& state) {
       dense.sources().add("dense.ngc", program(static_cast<int>(state.range(0))));
   for (auto _ : state) {
     Diagnostics diagnostics;
-    interp::Options options;
-    options.axes = dense.machine()->kinematics().axes();
-    const machine::JointVector start = dense.machine()->home();
-    if (const auto tip = dense.machine()->kinematics().forward(start, {})) options.start = *tip;
-    interp::Interpreter interpreter(
-        text, dense.tools(), {}, options,
-        [&](const std::string& path) { return dense.sources().open(path); }, diagnostics);
-    plan::Planner planner(*dense.machine(), start, {});
-    sim::Simulator simulator(dense.machine(), dense.tools(), start,
-                             {.limits = false, .collision = false, .cut = false});
-    sim::run(interpreter, diagnostics, planner, simulator, {});
+    run_dense(dense, text, {.limits = false, .collision = false, .cut = false}, diagnostics);
   }
 }
 BENCHMARK(plan_five_axes)->Arg(50'000)->Unit(benchmark::kSecond)->Iterations(1);

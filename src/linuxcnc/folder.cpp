@@ -33,6 +33,14 @@ Expected<std::string> Folder::resolve(const std::string& name, bool folder) cons
   return (shown_ / name).lexically_normal().string();
 }
 
+SourceReader Folder::reader(SourceMap& sources) const {
+  return [folder = *this, &sources](const std::string& name) -> Expected<const SourceText*> {
+    const auto full = folder.resolve(name, false);
+    if (!full) return unexpected(full.error());
+    return sources.open(*full);
+  };
+}
+
 bool Folder::lacks(const std::string& name) const {
   const auto path = resolve(name, false);
   std::error_code error;

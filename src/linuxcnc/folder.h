@@ -15,6 +15,8 @@ class Folder {
 
   /// The path as messages show it, or why it can't be used (`path_refused`, `input`).
   Expected<std::string> resolve(const std::string& name, bool folder) const;
+  /// Opens the texts that a set-up names.
+  SourceReader reader(SourceMap& sources) const;
   /// Nothing has that name, and it is one that could be used.
   bool lacks(const std::string& name) const;
 

@@ -384,13 +384,8 @@ Expected<std::optional<MachineImport>> import_machine(const std::string& path, S
   const auto text = sources.open(path);
   if (!text) return unexpected(text.error());
   const Folder folder(path);
-  const SourceReader include = [&](const std::string& name) -> Expected<const SourceText*> {
-    const auto full = folder.resolve(name, false);
-    if (!full) return unexpected(full.error());
-    return sources.open(*full);
-  };
   Diagnostics read;  // read_setup() tells what is wrong with the lines themselves
-  const ini::IniFile ini = ini::read_ini(**text, include, read);
+  const ini::IniFile ini = ini::read_ini(**text, folder.reader(sources), read);
   const ini::Entry* kinematics = ini.find("KINS", "KINEMATICS");
   if (!kinematics) return std::optional<MachineImport>();
   Hal hal(ini, out);

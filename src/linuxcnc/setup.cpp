@@ -395,12 +395,7 @@ Expected<Setup> read_setup(const std::string& path, Given given, SourceMap& sour
   const auto text = sources.open(path);
   if (!text) return unexpected(text.error());
   const Folder folder(path);
-  const SourceReader include = [&](const std::string& name) -> Expected<const SourceText*> {
-    const auto full = folder.resolve(name, false);
-    if (!full) return unexpected(full.error());
-    return sources.open(*full);
-  };
-  const ini::IniFile file = ini::read_ini(**text, include, out);
+  const ini::IniFile file = ini::read_ini(**text, folder.reader(sources), out);
   return Reader(file, **text, folder, given, sources, out).read();
 }
 

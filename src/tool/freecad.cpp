@@ -11,7 +11,6 @@ namespace aircut::tool {
 namespace {
 
 constexpr double most_number = 99'999'999;
-constexpr std::size_t most_tools = 10'000;
 
 struct Unit {
   const char* name;
@@ -116,41 +115,36 @@ Expected<ToolTable> read_fctb(const SourceText& text, int number, Diagnostics& o
 Expected<ToolTable> read_fctl(const SourceText& text, const SourceReader& tools, Diagnostics& out) {
   Diagnostics found;
   ToolTable table;
-  auto json = parse_json(text);
-  if (!json) {
-    out.add(json.error());
-    return unexpected(json.error());
+  const auto list = tool_list(text, "tools");
+  if (!list) {
+    out.add(list.error());
+    return unexpected(list.error());
   }
-  const Json& rows = at(*json, "tools");
-  if (!rows.is_array() || rows.size() > most_tools)
-    found.add(make_error(kind_of_errors, head_of(text),
-                         rows.is_array() ? "a tool library of more than 10 000 tools"
-                                         : "this is no tool library: \"tools\": [ … ] is missing"));
+  const Json& rows = *list;
   const Places places(text, "tools");
-  if (found.errors() == 0)
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const SourceSpan span = places[i];
-      const auto number = number_at(rows[i], "nr");
-      const std::string path = text_at(rows[i], "path");
-      const std::string name = path.substr(path.find_last_of("/\\") + 1);
-      if (!number || *number != std::floor(*number) || *number < 1 || *number > most_number ||
-          name.empty() || name.front() == '.') {
-        found.add(make_error(kind_of_errors, span,
-                             "a row needs \"nr\", a whole number from 1 on, and \"path\", the "
-                             "name of a .fctb file"));
-        continue;
-      }
-      const auto file = tools(name);
-      if (!file) {
-        found.add(
-            make_error(kind_of_errors, span,
-                       "tool '" + printable(name) + "' can't be read: " + file.error().message));
-        continue;
-      }
-      Diagnostics here;
-      add_tool(table, read_one(**file, static_cast<int>(*number), here), here);
-      for (const Diagnostic& d : here.list()) found.add(d);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const SourceSpan span = places[i];
+    const auto number = number_at(rows[i], "nr");
+    const std::string path = text_at(rows[i], "path");
+    const std::string name = path.substr(path.find_last_of("/\\") + 1);
+    if (!number || *number != std::floor(*number) || *number < 1 || *number > most_number ||
+        name.empty() || name.front() == '.') {
+      found.add(make_error(kind_of_errors, span,
+                           "a row needs \"nr\", a whole number from 1 on, and \"path\", the "
+                           "name of a .fctb file"));
+      continue;
     }
+    const auto file = tools(name);
+    if (!file) {
+      found.add(
+          make_error(kind_of_errors, span,
+                     "tool '" + printable(name) + "' can't be read: " + file.error().message));
+      continue;
+    }
+    Diagnostics here;
+    add_tool(table, read_one(**file, static_cast<int>(*number), here), here);
+    for (const Diagnostic& d : here.list()) found.add(d);
+  }
   for (const Diagnostic& d : found.list()) out.add(d);
   return finish(std::move(table), found);
 }

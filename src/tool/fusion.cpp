@@ -13,7 +13,6 @@ namespace aircut::tool {
 namespace {
 
 constexpr double most_number = 99'999'999;
-constexpr std::size_t most_tools = 10'000;
 
 double unit_of(const Json& object, double otherwise) {
   const std::string unit = text_at(object, "unit");
@@ -141,22 +140,17 @@ std::optional<Tool> read_one(const Json& json, const SourceSpan& span, Diagnosti
 Expected<ToolTable> read_fusion(const SourceText& text, Diagnostics& out) {
   Diagnostics found;
   ToolTable table;
-  auto json = parse_json(text);
-  if (!json) {
-    out.add(json.error());
-    return unexpected(json.error());
+  const auto list = tool_list(text, "data");
+  if (!list) {
+    out.add(list.error());
+    return unexpected(list.error());
   }
-  const Json& data = at(*json, "data");
-  if (!data.is_array() || data.size() > most_tools)
-    found.add(make_error(kind_of_errors, head_of(text),
-                         data.is_array() ? "a tool library of more than 10 000 tools"
-                                         : "this is no tool library: \"data\": [ … ] is missing"));
+  const Json& data = *list;
   const Places places(text, "data");
-  if (found.errors() == 0)
-    for (std::size_t i = 0; i < data.size(); ++i) {
-      if (text_at(data[i], "type") == "holder") continue;  // a holder by itself
-      add_tool(table, read_one(data[i], places[i], found), found);
-    }
+  for (std::size_t i = 0; i < data.size(); ++i) {
+    if (text_at(data[i], "type") == "holder") continue;  // a holder by itself
+    add_tool(table, read_one(data[i], places[i], found), found);
+  }
   for (const Diagnostic& d : found.list()) out.add(d);
   return finish(std::move(table), found);
 }

@@ -10,6 +10,7 @@ namespace aircut::tool {
 namespace {
 
 constexpr std::size_t deepest = 64;
+constexpr std::size_t most_tools = 10'000;
 
 // A number as TOML wants it: a float needs a point or an exponent.
 std::string toml_number(double value) {
@@ -71,6 +72,19 @@ Expected<Json> parse_json(const SourceText& text) {
 }
 
 SourceSpan head_of(const SourceText& text) { return span_at(text, 0, 1); }
+
+Expected<Json> tool_list(const SourceText& text, const std::string& key) {
+  auto json = parse_json(text);
+  if (!json) return json;
+  const Json& list = at(*json, key);
+  if (!list.is_array())
+    return unexpected(make_error(kind_of_errors, head_of(text),
+                                 "this is no tool library: \"" + key + "\": [ … ] is missing"));
+  if (list.size() > most_tools)
+    return unexpected(
+        make_error(kind_of_errors, head_of(text), "a tool library of more than 10 000 tools"));
+  return list;
+}
 
 Places::Places(const SourceText& text, const std::string& key) : head_(head_of(text)) {
   const std::string_view all = text.content();

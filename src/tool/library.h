@@ -18,6 +18,8 @@ using Json = nlohmann::json;
 Expected<Json> parse_json(const SourceText& text);
 /// The first line of the (valid) text.
 SourceSpan head_of(const SourceText& text);
+/// The list `key` of a library of tools; the error says what is wrong with the text.
+Expected<Json> tool_list(const SourceText& text, const std::string& key);
 /// Where the elements of the list `key` of the (valid) text begin; missing ones are at its head.
 class Places {
  public:
