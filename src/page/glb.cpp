@@ -16,7 +16,6 @@ namespace {
 
 using report::Json;
 
-constexpr std::size_t most_body_triangles = 60'000;
 constexpr int floats = 5126, unsigned_ints = 5125;          // component types of glTF
 constexpr int vertex_target = 34962, index_target = 34963;  // buffer view targets
 constexpr int lines_mode = 1;
@@ -225,11 +224,10 @@ class Scene {
     std::vector<float> times, scales;
     for (const auto& [t, there] : steps) {
       const auto at = static_cast<float>(t);
-      if (!times.empty() && at <= times.back()) {
-        times.pop_back();
-        scales.resize(scales.size() - 3);
-      }
-      times.push_back(times.empty() ? at : std::max(at, times.back()));
+      if (times.empty() || at > times.back())
+        times.push_back(at);
+      else
+        scales.resize(scales.size() - 3);  // the last of several at one time counts
       scales.insert(scales.end(), 3, there ? 1.0f : 0.0f);
     }
     animate(node, "scale", "STEP", numbers_.add(times, 1, true), numbers_.add(scales, 3, false));

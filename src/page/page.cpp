@@ -20,7 +20,6 @@ using report::Json;
 constexpr double degrees = 180 / M_PI;
 constexpr std::size_t most_program_bytes = 8'000'000;
 constexpr std::size_t most_picture_bytes = 3'500'000;  // of all pictures together
-constexpr std::size_t most_body_triangles = 60'000;
 // What a slow browser draws while the picture moves.
 constexpr std::size_t coarse_stock_triangles = 4'000;
 constexpr std::size_t coarse_body_triangles = 400;

@@ -8,6 +8,9 @@
 
 namespace aircut::page {
 
+/// Meshes of bodies with more are thinned.
+inline constexpr std::size_t most_body_triangles = 60'000;
+
 /// Place of a link in the world (x, y, z in mm) and its turn (x, y, z, w of a unit quaternion whose
 /// sign does not jump), a value for each key of the replay.
 using LinkTrack = std::array<std::vector<double>, 7>;
