@@ -1,4 +1,5 @@
-// Random programs on every shipped machine, as it is and with jerk limits, judged by the checker
+// Random programs on every shipped machine, as it is and with jerk limits, every third one with
+// overrides and holds, judged by the checker
 // that reads nothing but the log, the limits and the programmed path.
 #include <gtest/gtest.h>
 
@@ -136,16 +137,47 @@ class Writer {
   double feed_ = 0, tolerance_ = 0;
 };
 
+// Somebody plays with the panel while a program of `seconds` runs.
+std::vector<plan::OverrideEvent> random_events(double seconds, unsigned seed) {
+  using What = plan::OverrideEvent::What;
+  std::mt19937 random(seed);
+  std::vector<plan::OverrideEvent> out;
+  double t = 0;
+  for (int i = 0; i < 4; ++i) {
+    t += std::uniform_real_distribution<double>(0, seconds / 2)(random);
+    const double factor = std::array{0.1, 0.5, 0.9, 1.3, 3.0}[random() % 5];
+    switch (random() % 3) {
+      case 0:
+        out.push_back({t, What::feed, factor});
+        break;
+      case 1:
+        out.push_back({t, What::rapid, std::min(factor, 1.0)});
+        break;
+      case 2:
+        out.push_back({t, What::hold});
+        out.push_back({t += 0.2, What::resume});
+    }
+  }
+  return out;
+}
+
 // What the checker says against the log; nothing when the program leaves the machine's reach.
 std::optional<std::string> judge(const std::shared_ptr<const machine::Machine>& machine,
-                                 const Written& written) {
+                                 const Written& written, std::optional<unsigned> panel) {
   const machine::JointVector start = machine->home();
-  const Planned planned = plan_program(*machine, start, written.program);
+  Planned planned = plan_program(*machine, start, written.program);
+  plan::Options options;
+  if (panel && planned.errors.empty()) {
+    options.overrides = random_events(planned.time(), *panel);
+    planned = plan_program(*machine, start, written.program, options);
+  }
   if (!planned.errors.empty()) return planned.errors.front();
   if (planned.segments.back().failure) return std::nullopt;
   for (const plan::Segment& segment : planned.segments)
     if (!segment.limit_problem.empty()) return segment.limit_problem;
-  const SourceText log("log", run_to_log(machine, start, planned));
+  log::JointLogOptions log_options;
+  log_options.feed_factors = plan::feed_factors(options.overrides);
+  const SourceText log("log", run_to_log(machine, start, planned, log_options));
   std::size_t next = 0;
   const auto check = logbook::check(log, [&](logbook::IdealPiece& out) {
     if (next == written.pieces.size()) return false;
@@ -190,7 +222,8 @@ TEST_P(ShippedMachine, KeepsLimitsFeedAndPathOfRandomPrograms) {
     std::optional<std::string> wrong;
     // Where home is at the edge of the reach, nearer.
     for (double size = 10; size > 0.5 && !wrong; size /= 3)
-      wrong = judge(machine, Writer(*machine, home, seed).write(6, size));
+      wrong = judge(machine, Writer(*machine, home, seed).write(6, size),
+                    seed % 3 == 2 ? std::optional(seed) : std::nullopt);
     if (!wrong) continue;
     ++judged;
     EXPECT_EQ(*wrong, "") << GetParam() << ", seed " << seed << (i % 2 ? ", with jerk limits" : "");
