@@ -66,8 +66,11 @@ function(aircut_tests name)
     return()
   endif()
   add_executable(${name}_tests ${sources})
+  # Tests run in the source folder; paths from there keep objects the same wherever the clone is,
+  # so that ccache finds them.
+  file(RELATIVE_PATH binary_dir ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR})
   target_compile_definitions(${name}_tests PRIVATE
-    AIRCUT_SOURCE_DIR="${CMAKE_SOURCE_DIR}" AIRCUT_BINARY_DIR="${CMAKE_BINARY_DIR}")
+    AIRCUT_SOURCE_DIR="." AIRCUT_BINARY_DIR="${binary_dir}")
   target_include_directories(${name}_tests PRIVATE ${CMAKE_SOURCE_DIR}/tests)
   aircut_link_system(${name}_tests PRIVATE GTest::gtest_main ${ARG_LIBS})
   foreach(dep IN LISTS ARG_DEPENDS)

@@ -80,9 +80,9 @@ TEST_F(Check, TakesAThousandPrograms) {
     list += " many/part-" + std::to_string(1000 + i) + ".ngc";
   }
   // From inside the folder, so that the command line stays short.
-  const std::string command = "cd " + folder_.string() +
-                              " && timeout 120 " AIRCUT_BINARY_DIR "/bin/aircut check" + list +
-                              " --json >" + path("json");
+  const std::string command = "cd " + folder_.string() + " && timeout 120 " +
+                              std::filesystem::absolute(AIRCUT_BINARY_DIR).string() +
+                              "/bin/aircut check" + list + " --json >" + path("json");
   const int status = std::system(command.c_str());
   EXPECT_EQ(WEXITSTATUS(status), 1);
   const json out = json::parse(text_of(path("json")));
@@ -119,9 +119,9 @@ TEST_F(Check, CountsMessagesBeyondWhatItKeeps) {
 }
 
 TEST_F(Check, WritesPathsForSarifRelativeToWhereItRuns) {
-  const std::string command = "cd " + folder_.string() +
-                              " && " AIRCUT_BINARY_DIR "/bin/aircut check" + bad_ +
-                              " --format sarif >" + path("sarif");
+  const std::string command = "cd " + folder_.string() + " && " +
+                              std::filesystem::absolute(AIRCUT_BINARY_DIR).string() +
+                              "/bin/aircut check" + bad_ + " --format sarif >" + path("sarif");
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 1);
   const json run = json::parse(text_of(path("sarif"))).at("runs").at(0);
   EXPECT_EQ(run["results"][0]["locations"][0]["physicalLocation"]["artifactLocation"]["uri"],

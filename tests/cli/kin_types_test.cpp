@@ -11,9 +11,10 @@ namespace {
 class KinTypes : public Kin {
  protected:
   Outcome run(const std::string& arguments) const {
-    const std::string command =
-        "cd " + folder_.string() + " && timeout 120 " AIRCUT_BINARY_DIR "/bin/aircut " + arguments +
-        " >" + (folder_ / "out").string() + " 2>" + (folder_ / "err").string();
+    const std::string command = "cd " + folder_.string() + " && timeout 120 " +
+                                std::filesystem::absolute(AIRCUT_BINARY_DIR).string() +
+                                "/bin/aircut " + arguments + " >" + (folder_ / "out").string() +
+                                " 2>" + (folder_ / "err").string();
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of("out"), text_of("err")};
   }
@@ -61,7 +62,7 @@ TEST_F(KinTypes, SweepGivesTheGridWithTheLastWordFastest) {
 }
 
 TEST_F(KinTypes, WorkspaceTellsWhatAMachineReaches) {
-  const std::string root = AIRCUT_SOURCE_DIR "/machines/";
+  const std::string root = std::filesystem::absolute(AIRCUT_SOURCE_DIR "/machines/").string();
   const Outcome glide =
       run("workspace -m " + root + "ox-glide-crossed --x 0:600 --y 0 --z=-380:-74 --pitch 2");
   EXPECT_EQ(glide.code, 0) << glide.err;

@@ -85,11 +85,11 @@ class SeededFaults : public ::testing::Test {
     std::ofstream(place / "job.ngc") << job.program;
     std::ofstream(place / "job.setup.toml") << job.setup;
     std::ofstream(place / "tools.toml") << job.tools;
-    const std::string command = "cd " + place.string() +
-                                " && timeout 120 " AIRCUT_BINARY_DIR
-                                "/bin/aircut run job.ngc -m " AIRCUT_SOURCE_DIR
-                                "/machines/mill3 --setup job.setup.toml -t tools.toml --format gcc"
-                                " 2>&1";
+    const std::string command =
+        "cd " + place.string() + " && timeout 120 " + fs::absolute(AIRCUT_BINARY_DIR).string() +
+        "/bin/aircut run job.ngc -m " + fs::absolute(AIRCUT_SOURCE_DIR).string() +
+        "/machines/mill3 --setup job.setup.toml -t tools.toml --format gcc"
+        " 2>&1";
     std::string out;
     if (std::FILE* pipe = ::popen(command.c_str(), "r")) {
       std::array<char, 4096> buffer;

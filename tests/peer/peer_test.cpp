@@ -23,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::string programs_folder = AIRCUT_SOURCE_DIR "/tests/interp_programs/programs";
+const std::string programs_folder =
+    std::filesystem::absolute(AIRCUT_SOURCE_DIR "/tests/interp_programs/programs").string();
 const std::string sub_folder = programs_folder + "/subs";
 
 /// A difference without its numbers: `call own: DWELL reference: DWELL`, `only own refuses: …` with
