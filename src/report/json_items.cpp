@@ -66,6 +66,8 @@ Json finding(const sim::Finding& f, const Diagnostic& text, const std::string& p
              const RunReport& report) {
   Json points = Json::array();
   for (const Vec3& p : f.points) points.push_back(vector3(p));
+  Json points_part = Json::array();
+  for (const Vec3& p : f.points_part) points_part.push_back(vector3(p));
   return {{"id", f.id},
           {"episode", f.episode},
           {"kind", sim::to_string(f.kind)},
@@ -85,7 +87,10 @@ Json finding(const sim::Finding& f, const Diagnostic& text, const std::string& p
           {"u_end", f.u_end},
           {"joints_first", joints(f.joints_first, report)},
           {"joints_worst", joints(f.joints_worst, report)},
+          {"h_offset", f.length_offset > 0 ? Json(f.length_offset) : Json(nullptr)},
           {"tcp_machine", axes(f.tip)},
+          {"tcp_part_mm", f.tip_part ? vector3(*f.tip_part) : Json(nullptr)},
+          {"tool_axis", vector3(f.tool_axis)},
           {"feed_mm_per_min", f.feed * 60},
           {"feed_actual_mm_per_min", f.feed_actual * 60},
           {"spindle_rpm", f.spindle_rpm},
@@ -95,6 +100,10 @@ Json finding(const sim::Finding& f, const Diagnostic& text, const std::string& p
           {"depth_mm", or_null(f.depth)},
           {"depth_bound_mm", or_null(f.depth_bound)},
           {"points_mm", points},
+          {"points_part_mm", points_part},
+          {"axial_retract_mm", or_null(f.axial_retract)},
+          {"retreat_mm", or_null(f.retreat)},
+          {"volume_mm3", f.unit == "mm3" ? or_null(f.value) : Json(nullptr)},
           {"normal", vector3(f.normal)},
           {"joint", utf8(f.joint)},
           {"quantity", f.quantity},

@@ -85,6 +85,7 @@ Finding finding_at(Kind kind, const Step& step, double t) {
   if (const tool::Tool* tool = step.scene.tool()) f.tool_name = tool->name;
   f.work_system = work_system_name(segment.work_system);
   f.motion = segment.kind;
+  f.length_offset = step.scene.length_offset();
   f.t_first = f.t_worst = f.t_end = t;
   f.feed = segment.feed;
   f.spindle_rpm = segment.spindle_rpm;

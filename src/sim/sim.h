@@ -36,6 +36,9 @@ class Scene {
   const machine::Machine& machine() const { return *machine_; }
   std::shared_ptr<const machine::Machine> machine_ptr() const { return machine_; }
   const std::vector<SceneBody>& bodies() const { return bodies_; }
+  /// The tool whose length offset is in force; 0: none, or one given as numbers.
+  int length_offset() const { return length_offset_; }
+  void use_length_offset(int tool) { length_offset_ = tool; }
   /// Puts a tool into the spindle (0 = none).
   void load_tool(int number);
   int loaded_tool() const { return loaded_; }
@@ -48,6 +51,7 @@ class Scene {
   std::size_t fixed_bodies_ = 0;  ///< the tool's pieces come after these
   std::vector<SceneBody> bodies_;
   int loaded_ = 0;
+  int length_offset_ = 0;
 };
 
 /// One interval given to the checks.
@@ -118,6 +122,12 @@ struct Finding {
   std::optional<double> depth;        ///< mm; negative = separation
   std::optional<double> depth_bound;  ///< mm
   std::vector<Vec3> points;           ///< machine (bed) frame
+  std::vector<Vec3> points_part;      ///< the same in the stock's frame; empty without one
+  std::optional<Vec3> tip_part;       ///< the tip at t_worst, likewise
+  Vec3 tool_axis = Vec3::Zero();      ///< from the tip to the spindle, at t_worst; bed frame
+  int length_offset = 0;              ///< tool whose length was in force (G43 H); 0: none
+  /// Of a contact: how far up the tool's axis, and back along the block's path, it is clear; mm.
+  std::optional<double> axial_retract, retreat;
   Vec3 normal = Vec3::Zero();
   std::string joint;     ///< travel kinds
   std::string quantity;  ///< what `value` and `limit` are of, where a kind has several
@@ -305,6 +315,8 @@ class Simulator {
   void count(const plan::Segment& segment);
   void user_code(const Step& step, const canon::UserCode& code);
   void feed_without_tool(const Step& step);
+  /// The fields that follow from the joints at the worst moment.
+  void place(Finding& f) const;
 
   Scene scene_;
   JointVector joints_;

@@ -20,8 +20,6 @@ Simulator::Simulator(std::shared_ptr<const machine::Machine> machine, const tool
     auto turning = std::make_unique<TurningCheck>(options);
     turning_ = turning.get();
     checks_.push_back(std::move(turning));
-    const machine::Machine& lathe = scene_.machine();
-    if (lathe.part()) not_checked("the result against the part: a turned stock is not compared");
   } else if (options.cut) {
     auto cutting = std::make_unique<CuttingCheck>(options);
     cutting_ = cutting.get();
@@ -43,6 +41,11 @@ std::optional<std::string> Simulator::saved_stock() const {
 }
 
 std::optional<Simulator::ComparedPart> Simulator::deviation() const {
+  if (turning_ && turning_->design() && turning_->part()) {
+    ComparedPart turned{*turning_->part(), {}};
+    turned.outside = turning_->design()->outside(turned.mesh);
+    return turned;
+  }
   if (!cutting_ || !cutting_->stock() || !cutting_->part()) return std::nullopt;
   ComparedPart out{cutting_->stock()->mesh(stock::Facets::lattice), {}};
   out.outside = cutting_->part()->outside(out.mesh);
@@ -63,6 +66,8 @@ void Simulator::start() {
 }
 
 void Simulator::step(const plan::Segment& segment) {
+  if (const auto* length = std::get_if<canon::ToolLengthOffset>(&segment.command.action))
+    scene_.use_length_offset(length->tool);
   const motion::JointMotion motion(scene_.machine(), segment, joints_);
   const Step step{scene_, motion, segment};
   count(segment);
@@ -215,10 +220,29 @@ void Simulator::count(const plan::Segment& segment) {
   }
 }
 
+void Simulator::place(Finding& f) const {
+  const machine::Machine& machine = scene_.machine();
+  if (f.joints_worst.size() != machine.joint_count()) return;
+  machine::LinkPoses poses;
+  machine::forward(machine, f.joints_worst, poses);
+  const auto pose = [&](machine::LinkId id) -> const Pose& {
+    return poses.X_WL[static_cast<std::size_t>(machine::index(id))];
+  };
+  const machine::Spindle& spindle = machine.spindle();
+  f.tool_axis = pose(spindle.link).linear() * spindle.R_LF * Vec3::UnitZ();
+  if (!machine.stock()) return;
+  const Pose X_SW = (pose(machine.stock()->link) * machine.stock()->X_LS).inverse(Eigen::Isometry);
+  const tool::Tool* tool = scene_.tools().find(f.tool);
+  const double length = tool ? tool->gauge_length : 0;
+  f.tip_part = X_SW * (pose(spindle.link) * spindle.gauge - length * f.tool_axis);
+  for (const Vec3& point : f.points) f.points_part.push_back(X_SW * point);
+}
+
 Simulator::Result Simulator::finish() {
   for (const auto& check : checks_) check->finish(summary_, findings_);
   summary_.findings_dropped = findings_.dropped();
   Result result{findings_.finish(), summary_};
+  for (Finding& f : result.findings) place(f);
   for (Observer* observer : observers_) observer->on_finish(result.summary);
   return result;
 }

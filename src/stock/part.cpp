@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <unordered_map>
 
 #include "stock/impl.h"
@@ -146,35 +147,58 @@ Spot Part::outside_of(const TriangleMesh& raw) const {
   return worst;
 }
 
-Deviation Part::compare(const Stock& stock, const PartTolerances& tolerances) const {
+namespace {
+
+using See = std::function<void(const Vec3&)>;
+
+/// Compares places of a surface that `each_place` gives, neighbours after one another.
+Deviation compare_places(const MeshDistance& part, double pitch, const PartTolerances& tolerances,
+                         const std::function<void(const See&)>& each_place) {
   Deviation out;
-  Spots gouges(2 * stock.pitch()), excesses(2 * stock.pitch());
+  Spots gouges(2 * pitch), excesses(2 * pitch);
   const double least = std::min(tolerances.gouge, tolerances.excess + tolerances.allowance);
-  for (int axis = 0; axis < 3; ++axis) {
-    Vec3 last = Vec3::Constant(std::numeric_limits<double>::infinity());
-    double last_distance = 0;
-    stock.each_end(axis, [&](const Vec3& p) {
-      ++out.points;
-      // Neighbouring ends are near to one another: that bounds the distance.
-      const double distance = impl_->surface.distance(p, last_distance + (p - last).norm());
-      last = p;
-      last_distance = distance;
-      double& largest_gouge = out.gouge;
-      if (distance <= std::min(least, std::min(largest_gouge, out.excess))) return;
-      if (impl_->surface.inside(p)) {
-        largest_gouge = std::max(largest_gouge, distance);
-        if (distance > tolerances.gouge) gouges.add(p, distance);
-        return;
-      }
-      for (const Box3& box : tolerances.leave)
-        if (box.contains(p)) return;
-      out.excess = std::max(out.excess, distance);
-      if (distance > tolerances.excess + tolerances.allowance) excesses.add(p, distance);
-    });
-  }
+  Vec3 last = Vec3::Constant(std::numeric_limits<double>::infinity());
+  double last_distance = 0;
+  each_place([&](const Vec3& p) {
+    ++out.points;
+    // Neighbouring ends are near to one another: that bounds the distance.
+    const double distance = part.distance(p, last_distance + (p - last).norm());
+    last = p;
+    last_distance = distance;
+    double& largest_gouge = out.gouge;
+    if (distance <= std::min(least, std::min(largest_gouge, out.excess))) return;
+    if (part.inside(p)) {
+      largest_gouge = std::max(largest_gouge, distance);
+      if (distance > tolerances.gouge) gouges.add(p, distance);
+      return;
+    }
+    for (const Box3& box : tolerances.leave)
+      if (box.contains(p)) return;
+    out.excess = std::max(out.excess, distance);
+    if (distance > tolerances.excess + tolerances.allowance) excesses.add(p, distance);
+  });
   out.gouges = gouges.joined(out.gouges_dropped);
   out.excesses = excesses.joined(out.excesses_dropped);
   return out;
+}
+
+}  // namespace
+
+Deviation Part::compare(const Stock& stock, const PartTolerances& tolerances) const {
+  return compare_places(impl_->surface, stock.pitch(), tolerances, [&](const See& see) {
+    for (int axis = 0; axis < 3; ++axis) stock.each_end(axis, see);
+  });
+}
+
+Deviation Part::compare(const TurnedStock& stock, const PartTolerances& tolerances) const {
+  constexpr int places = 8;
+  return compare_places(impl_->surface, stock.pitch(), tolerances, [&](const See& see) {
+    for (int i = 0; i < places; ++i) {
+      const double angle = 2 * std::numbers::pi * i / places;
+      const double x = std::cos(angle), y = std::sin(angle);
+      stock.each_end([&](double r, double z) { see(Vec3(r * x, r * y, z)); });
+    }
+  });
 }
 
 std::vector<double> Part::outside(const TriangleMesh& mesh) const {

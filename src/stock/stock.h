@@ -238,6 +238,8 @@ struct Deviation {
   std::size_t gouges_dropped = 0, excesses_dropped = 0;
 };
 
+class TurnedStock;
+
 /// The part that a stock is to become: a closed mesh, in the stock's frame.
 class Part {
  public:
@@ -260,6 +262,8 @@ class Part {
   /// How far the part stands out of a stock's initial solid, given by its surface, and where.
   Spot outside_of(const TriangleMesh& raw) const;
   Deviation compare(const Stock& stock, const PartTolerances& tolerances) const;
+  /// The same of a stock of revolution, at eight places around.
+  Deviation compare(const TurnedStock& stock, const PartTolerances& tolerances) const;
   /// For each vertex of a mesh how far it is outside, mm.
   std::vector<double> outside(const TriangleMesh& mesh) const;
 
@@ -324,6 +328,8 @@ class TurnedStock {
   /// Material on the ray at the height nearest to z (at the radius nearest to r), mm.
   std::vector<std::pair<double, double>> radii_at(double z) const;
   std::vector<std::pair<double, double>> heights_at(double r) const;
+  /// Calls `see` with every place (r, z) where a ray enters or leaves the material.
+  void each_end(const std::function<void(double r, double z)>& see) const;
   /// The outlines of the section, closed loops of (r, z) with the material on the left; straight
   /// stretches are one piece (off by at most a hundredth of the pitch).
   std::vector<std::vector<std::pair<double, double>>> outlines() const;

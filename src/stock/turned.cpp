@@ -300,6 +300,22 @@ std::vector<std::pair<double, double>> TurnedStock::heights_at(double r) const {
   return in_mm(along_z_, r, pitch_);
 }
 
+void TurnedStock::each_end(const std::function<void(double, double)>& see) const {
+  const auto mm = [](Nanometres value) { return static_cast<double>(value) * 1e-6; };
+  for (std::size_t k = 0; k < along_r_.size(); ++k)
+    for (const auto& [from, to] : along_r_[k]) {
+      const double z = (static_cast<double>(k) + 0.5) * pitch_;
+      if (from > 0) see(mm(from), z);  // the axis is no surface
+      see(mm(to), z);
+    }
+  for (std::size_t i = 0; i < along_z_.size(); ++i)
+    for (const auto& [from, to] : along_z_[i]) {
+      const double r = (static_cast<double>(i) + 0.5) * pitch_;
+      see(r, mm(from));
+      see(r, mm(to));
+    }
+}
+
 std::string TurnedStock::hash() const {
   std::string bytes;
   const auto put = [&](std::int64_t v) {

@@ -44,7 +44,7 @@ class Turning : public ::testing::Test {
   }
 
   RunResult run(const std::string& text, const std::string& start = "T1 M6 G43 H1\n",
-                const std::string& raw = "cylinder") {
+                const std::string& raw = "cylinder", const Profile& part = {}) {
     auto machine = std::make_shared<machine::Machine>(*box_.machine());
     machine->kinematics_ = machine::make_identity({Axis::x, Axis::z});
     // The axis Y of the boxes stays where it is.
@@ -65,6 +65,13 @@ class Turning : public ::testing::Test {
     piece.height = 60;
     piece.pitch = 0.1;
     setup.stock->place = Vec3(raw == "shifted" ? 1 : 0, 0, -160);
+    if (!part.empty()) {
+      std::ofstream(box_.folder() + "/part.stl", std::ios::binary)
+          << stl_bytes(revolve(part, 0.003));
+      setup.folder = box_.folder();
+      setup.part.emplace();
+      setup.part->mesh_path = "part.stl";
+    }
     Diagnostics out;
     const auto placed = machine::apply_setup(*machine, setup, box_.sources(), out);
     EXPECT_TRUE(placed);
@@ -84,6 +91,29 @@ TEST_F(Turning, TurnsAStepOfItsExactVolume) {
   for (const Finding& f : r.findings) ADD_FAILURE() << f.message;
   EXPECT_NEAR(r.summary.stock->initial_volume, pi * 400 * 60, 1e-3);
   EXPECT_NEAR(left(r), pi * (225 * 30 + 400 * 30), 1);
+}
+
+TEST_F(Turning, ComparesTheResultWithThePart) {
+  const Profile shaft = {{0, 0}, {20, 0}, {20, 30}, {15, 30}, {15, 60}, {0, 60}};
+  const auto step = [](const std::string& x, const std::string& z) {
+    return "G0 Z-95\nG0 X" + x + "\nG1 Z" + z + "\nG1 X30\nG0 Z-50\n";
+  };
+  const RunResult good = run(step("15", "-130"), "T1 M6 G43 H1\n", "cylinder", shaft);
+  EXPECT_EQ(good.verdict, Verdict::pass);
+  for (const Finding& f : good.findings) ADD_FAILURE() << f.message;
+  ASSERT_TRUE(good.summary.part);
+  EXPECT_LT(good.summary.part->gouge, 0.01);
+  EXPECT_LT(good.summary.part->excess, 0.01);
+  // A tenth too thin, and a millimetre too long a shoulder.
+  const RunResult thin = run(step("14.9", "-130"), "T1 M6 G43 H1\n", "cylinder", shaft);
+  EXPECT_EQ(thin.verdict, Verdict::fail);
+  EXPECT_GE(thin.count(Kind::gouge), 1);
+  EXPECT_NEAR(thin.summary.part->gouge, 0.1, 0.01);
+  const RunResult lengthy = run(step("15", "-129"), "T1 M6 G43 H1\n", "cylinder", shaft);
+  EXPECT_EQ(lengthy.count(Kind::gouge), 0);
+  EXPECT_GE(lengthy.count(Kind::excess), 1);
+  EXPECT_NEAR(lengthy.summary.part->excess, 1, 0.01);
+  EXPECT_EQ(lengthy.verdict, Verdict::pass);
 }
 
 TEST_F(Turning, TurnsATaper) {

@@ -238,7 +238,8 @@ class CollisionCheck final : public Check {
         f.normal = worst->penetration.direction;
         f.points = {worst->penetration.point};
         f.t_worst = worst->t;
-        if (const auto lift = is_tool(a.role) ? at.axial_retract(worst->t) : std::nullopt)
+        f.axial_retract = is_tool(a.role) ? at.axial_retract(worst->t) : std::nullopt;
+        if (const auto lift = f.axial_retract)
           f.remedy = "at its worst the tool must come up by " + fixed(*lift, 2) +
                      " mm along its axis to clear; retract first, or raise the clearance plane";
       }
@@ -247,6 +248,9 @@ class CollisionCheck final : public Check {
       f.tip = state->tip;
       f.feed_actual = state->path_speed;
     }
+    const plan::SpeedProfile& profile = step.segment.profile;
+    f.retreat = profile.at(f.t_worst - step.segment.t_start).s -
+                profile.at(f.t_first - step.segment.t_start).s;
     if (f.points.empty())
       if (const LinkPoses* poses = cache.at(hit.t_overlap))
         f.points = {mesh_pose(a, *poses) * hit.point};

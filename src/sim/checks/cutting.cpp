@@ -388,16 +388,8 @@ void CuttingCheck::look_at_part(const Step& step, const Solid& cutter, const Str
 void CuttingCheck::compare_with_part(Summary& summary, Findings& out) {
   if (!no_part_.empty()) summary.unchecked.push_back("the result against the part: " + no_part_);
   if (!part_) return;
-  machine::LinkPoses poses;
-  machine::forward(*machine_, joints_, poses);
-  Finding end;
-  end.t_first = end.t_worst = end.t_end = end.t_block = end.t_block_end = t_end_;
-  end.joints_first = end.joints_worst = joints_;
-  end.body_a = "stock";
-  end.body_b = "part";
-  end.pair = "stock-part";
-  const Pose X_WS = poses.X_WL[static_cast<std::size_t>(machine::index(raw_->link))] * raw_->X_LS;
-  summary.part = part_->compare(*stock_, X_WS, end, out);
+  summary.part =
+      part_->compare(*stock_, at_end(*machine_, *raw_, joints_), end_of_run(t_end_, joints_), out);
 }
 
 void CuttingCheck::finish(Summary& summary, Findings& out) {

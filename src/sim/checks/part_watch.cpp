@@ -16,6 +16,23 @@ std::string place_text(const Vec3& p) {
 
 }  // namespace
 
+Pose at_end(const machine::Machine& machine, const machine::RawStock& raw,
+            const JointVector& joints) {
+  machine::LinkPoses poses;
+  machine::forward(machine, joints, poses);
+  return poses.X_WL[static_cast<std::size_t>(machine::index(raw.link))] * raw.X_LS;
+}
+
+Finding end_of_run(double t, const JointVector& joints) {
+  Finding end;
+  end.t_first = end.t_worst = end.t_end = end.t_block = end.t_block_end = t;
+  end.joints_first = end.joints_worst = joints;
+  end.body_a = "stock";
+  end.body_b = "part";
+  end.pair = "stock-part";
+  return end;
+}
+
 Expected<PartWatch> PartWatch::make(const machine::DesignPart& design, const machine::RawStock& raw,
                                     double pitch, Findings& out) {
   auto part = stock::Part::make(design.mesh, pitch);
@@ -67,13 +84,9 @@ const PartWatch::Cut* PartWatch::who_cut(const stock::Spot& spot) const {
   return best;
 }
 
-Summary::Part PartWatch::compare(const stock::Stock& stock, const Pose& X_WS, const Finding& end,
-                                 Findings& out) const {
-  const stock::Deviation found = part_.compare(stock, {.gouge = design_.gouge,
-                                                       .excess = design_.excess,
-                                                       .allowance = design_.allowance,
-                                                       .leave = design_.leave});
-  const auto tell = [&](Finding f, Kind kind, const stock::Spot& spot, double limit) {
+Summary::Part PartWatch::tell(const stock::Deviation& found, const Pose& X_WS, const Finding& end,
+                              Findings& out) const {
+  const auto row = [&](Finding f, Kind kind, const stock::Spot& spot, double limit) {
     f.kind = kind;
     f.severity = severity_of(kind);
     f.depth = spot.depth;
@@ -95,13 +108,13 @@ Summary::Part PartWatch::compare(const stock::Stock& stock, const Pose& X_WS, co
     f.body_b = "part";
     f.pair = "stock-part";
     f.remedy = cut ? f.remedy : "the part was not cut here by this job: see [stock] and [part]";
-    tell(std::move(f), Kind::gouge, spot, design_.gouge);
+    row(std::move(f), Kind::gouge, spot, design_.gouge);
   }
   for (const stock::Spot& spot : found.excesses) {
     Finding f = end;
     f.points = {X_WS * spot.point};
     f.remedy = "machine it, or say that it stays: `allowance` or [[part.leave]]";
-    tell(std::move(f), Kind::excess, spot, design_.excess + design_.allowance);
+    row(std::move(f), Kind::excess, spot, design_.excess + design_.allowance);
   }
   Summary::Part part;
   part.gouge = found.gouge;

@@ -9,6 +9,12 @@
 
 namespace aircut::sim {
 
+/// The stock's frame seen from the bed with the joints there.
+Pose at_end(const machine::Machine& machine, const machine::RawStock& raw,
+            const JointVector& joints);
+/// The fields of a row without a line, at the end of the run.
+Finding end_of_run(double t, const JointVector& joints);
+
 class PartWatch {
  public:
   /// Tells `wrong_setup` when the part stands out of the raw piece. Errors: stock.h, Stock::make.
@@ -25,8 +31,11 @@ class PartWatch {
   Expected<void> take(const stock::Piece& piece, const Finding& row, const stock::Touch& touch);
 
   /// Compares the result; `end` has the fields of rows without a line. X_WS: the stock's frame.
-  Summary::Part compare(const stock::Stock& stock, const Pose& X_WS, const Finding& end,
-                        Findings& out) const;
+  template <class Material>
+  Summary::Part compare(const Material& stock, const Pose& X_WS, const Finding& end,
+                        Findings& out) const {
+    return tell(part_.compare(stock, tolerances()), X_WS, end, out);
+  }
 
  private:
   struct Cut {
@@ -35,6 +44,14 @@ class PartWatch {
   };
   PartWatch(const machine::DesignPart& design, stock::Part part, double pitch)
       : design_(design), part_(std::move(part)), pitch_(pitch) {}
+  stock::PartTolerances tolerances() const {
+    return {.gouge = design_.gouge,
+            .excess = design_.excess,
+            .allowance = design_.allowance,
+            .leave = design_.leave};
+  }
+  Summary::Part tell(const stock::Deviation& found, const Pose& X_WS, const Finding& end,
+                     Findings& out) const;
   const Cut* who_cut(const stock::Spot& spot) const;
 
   machine::DesignPart design_;

@@ -169,7 +169,7 @@ std::string TurningCheck::read_frame(const machine::Machine& machine) {
   return {};
 }
 
-void TurningCheck::start(const Scene& scene, const JointVector&, Findings&) {
+void TurningCheck::start(const Scene& scene, const JointVector& joints, Findings& out) {
   raw_ = scene.machine().stock();
   if (!raw_) return;
   if (auto why = read_frame(scene.machine()); !why.empty()) return give_up(why);
@@ -179,6 +179,16 @@ void TurningCheck::start(const Scene& scene, const JointVector&, Findings&) {
   stock_ = std::move(*made);
   initial_volume_ = stock_->volume();
   tolerance_ = std::min(pitch / 10, 0.01);
+  machine_ = scene.machine_ptr();
+  joints_ = joints;
+  if (const auto& design = scene.machine().part()) {
+    // The part is cast on the lattice that a milled stock of this size has.
+    auto watch = PartWatch::make(*design, *raw_, default_pitch(*raw_), out);
+    if (watch)
+      watch_ = std::move(*watch);
+    else
+      no_part_ = watch.error().message;
+  }
   if (options_.keep_cuts) {
     tape_ = std::make_unique<TurningTape>();
     if (!tape_->good()) give_up(disk_error("can't make a temporary file").message);
@@ -314,6 +324,8 @@ std::optional<Kind> TurningCheck::forbidden(const Step& step) const {
 
 void TurningCheck::step(const Step& step, Findings& out) {
   if (!raw_) return;
+  t_end_ = step.segment.t_end();
+  if (const auto end = step.motion.at(step.motion.t1())) joints_ = *end;
   if (!given_up_.empty()) return tell_given_up(step, out);
   if (std::holds_alternative<plan::Hold>(step.segment.path)) return;
   if (std::holds_alternative<canon::Probe>(step.segment.command.action)) return;
@@ -405,7 +417,14 @@ Finding TurningCheck::row(Kind kind, const Step& step, const StraightMove& move,
                  [&](double part) { return takes(touch(solid, move, part)); });
 }
 
-void TurningCheck::finish(Summary& summary, Findings&) {
+void TurningCheck::compare_with_part(Summary& summary, Findings& out) {
+  if (!no_part_.empty()) summary.unchecked.push_back("the result against the part: " + no_part_);
+  if (watch_)
+    summary.part = watch_->compare(*stock_, at_end(*machine_, *raw_, joints_),
+                                   end_of_run(t_end_, joints_), out);
+}
+
+void TurningCheck::finish(Summary& summary, Findings& out) {
   if (!raw_) return;
   if (!stock()) {
     if (!told_) summary.unchecked.push_back("what the tools take from the stock: " + given_up_);
@@ -418,6 +437,7 @@ void TurningCheck::finish(Summary& summary, Findings&) {
   s.volume = stock_->volume();
   s.bytes = stock_->bytes();
   summary.stock = s;
+  compare_with_part(summary, out);
 }
 
 }  // namespace aircut::sim

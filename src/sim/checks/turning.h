@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "sim/checks/cut_rows.h"
+#include "sim/checks/part_watch.h"
 #include "sim/checks/tool_way.h"
 #include "sim/sim.h"
 #include "stock/stock.h"
@@ -35,6 +36,8 @@ class TurningCheck final : public Check {
   /// Its surface in the stock's frame.
   std::optional<TriangleMesh> part() const;
   Expected<std::unique_ptr<StockHistory>> history();
+  /// The part to be made; null when there is none or it can't be compared.
+  const stock::Part* design() const { return watch_ && stock() ? watch_->part() : nullptr; }
 
  private:
   /// A piece of the tool in the half plane, its origin where the moves lead.
@@ -62,6 +65,7 @@ class TurningCheck final : public Check {
   double cut(const Step& step, const Solid& solid, const StraightMove& move);
   Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
               const stock::TurningTouch& touch) const;
+  void compare_with_part(Summary& summary, Findings& out);
   void give_up(const std::string& why);
   void tell_given_up(const Step& step, Findings& out);
 
@@ -69,6 +73,11 @@ class TurningCheck final : public Check {
   std::optional<machine::RawStock> raw_;
   std::optional<stock::TurnedStock> stock_;
   std::unique_ptr<TurningTape> tape_;
+  std::optional<PartWatch> watch_;
+  std::string no_part_;  ///< why the result can't be compared with the part
+  std::shared_ptr<const machine::Machine> machine_;
+  JointVector joints_;                                  ///< at the end of the last step
+  double t_end_ = 0;                                    ///< of it, s
   double initial_volume_ = 0, tolerance_ = 0;           ///< mm³, mm
   Vec3 across_ = Vec3::UnitX(), side_ = Vec3::UnitY();  ///< of the half plane; seen from S
   std::vector<Solid> cutters_, others_;
