@@ -70,6 +70,11 @@ std::string underline_remark(const sim::Finding& f) {
     case sim::Kind::tool_change_collision:
     case sim::Kind::axis_unwind:
     case sim::Kind::feed_not_reached:
+    case sim::Kind::branch_flip:
+    case sim::Kind::velocity_limit:
+    case sim::Kind::acceleration_limit:
+    case sim::Kind::jerk_limit:
+    case sim::Kind::path_deviation:
     case sim::Kind::engagement_limit:
     case sim::Kind::loose_piece:
     case sim::Kind::sync_limit:

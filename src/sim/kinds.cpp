@@ -149,6 +149,31 @@ const std::vector<KindText>& finding_kinds() {
        "from it. Mostly the place of one of them is wrong.\n"
        "Remedy: correct `place` and `angle` of [stock] or [part], the unit of a mesh, or the "
        "sizes."},
+      {"branch_flip", "a joint jumps to another solution of the inverse kinematics",
+       "At one moment of the planned motion a joint is elsewhere than just before: the inverse\n"
+       "kinematics has several solutions, and another one was taken. No machine can follow that.\n"
+       "In a rapid it is a warning.\n"
+       "Remedy: turn or move the part, so that the path stays clear of the pose where the\n"
+       "solutions meet (see `aircut kin jac` for how near it is)."},
+      {"velocity_limit", "a joint is planned faster than it can move",
+       "The finished plan is judged anew, with the joints from the inverse kinematics: here a "
+       "joint\n"
+       "is more than 0.1 % faster than its limit. That is a fault of the plan and should never be\n"
+       "seen; it is told rather than hidden.\n"
+       "Remedy: a lower feed; and please report it."},
+      {"acceleration_limit", "a joint is planned with more acceleration than it has",
+       "As `velocity_limit`, of the joint's acceleration.\n"
+       "Remedy: a lower feed; and please report it."},
+      {"jerk_limit", "a joint is planned with more jerk than it is allowed",
+       "As `velocity_limit`, of the joint's jerk, where the machine limits it.\n"
+       "Remedy: a lower feed; and please report it."},
+      {"path_deviation", "the planned path leaves the programmed one",
+       "The finished plan is compared with the program's lines and arcs: here the tip is farther "
+       "off\n"
+       "than the tolerance in force (G64 P, and Q for lines that are joined; none with G61). That "
+       "is\n"
+       "a fault of the plan and should never be seen; it is told rather than hidden.\n"
+       "Remedy: G61; and please report it."},
       {"dynamics_limit", "a joint's acceleration or jerk limit is passed",
        "The planner looks at every sample that the joint log will hold. Where a limit is passed it "
        "plans\n"

@@ -73,6 +73,11 @@ enum class Kind : unsigned char {
   singular,
   axis_unwind,
   feed_not_reached,
+  branch_flip,
+  velocity_limit,
+  acceleration_limit,
+  jerk_limit,
+  path_deviation,
   sync_limit,
   rapid_cut,
   spindle_stopped_cut,
@@ -256,6 +261,10 @@ std::unique_ptr<Check> make_travel_check();
 std::unique_ptr<Check> make_unwind_check();
 /// Feed moves that stay far below their F.
 std::unique_ptr<Check> make_feed_check();
+/// Speeds, accelerations and jerks of the planned motion, and joints that jump.
+std::unique_ptr<Check> make_dynamics_check();
+/// The planned path against the programmed one.
+std::unique_ptr<Check> make_deviation_check();
 std::unique_ptr<Check> make_collision_check(const CheckOptions& options);
 
 /// "G54" for 1 … "G59.3" for 9, "G54.1 P7" for 107.

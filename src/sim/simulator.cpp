@@ -14,6 +14,8 @@ Simulator::Simulator(std::shared_ptr<const machine::Machine> machine, const tool
     checks_.push_back(make_travel_check());
     checks_.push_back(make_unwind_check());
     checks_.push_back(make_feed_check());
+    checks_.push_back(make_dynamics_check());
+    checks_.push_back(make_deviation_check());
   }
   if (options.collision) checks_.push_back(make_collision_check(options));
   if (options.cut && turns_the_work(scene_.machine())) {

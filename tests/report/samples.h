@@ -176,6 +176,11 @@ class Samples {
     out.push_back(finding(Kind::excess, 6, "0.300 mm of material is left on the part"));
     out.push_back(finding(Kind::wrong_setup, 1, "the part stands out of the raw piece"));
     out.push_back(finding(Kind::dynamics_limit, 5, "the jerk limit of joint X is passed"));
+    out.push_back(finding(Kind::branch_flip, 5, "`C` jumps by 180.000°"));
+    out.push_back(finding(Kind::velocity_limit, 5, "the speed of `X` comes to 101.000 mm/s"));
+    out.push_back(finding(Kind::acceleration_limit, 5, "the acceleration of `X` is too large"));
+    out.push_back(finding(Kind::jerk_limit, 5, "the jerk of `X` is too large"));
+    out.push_back(finding(Kind::path_deviation, 5, "the planned path is 0.0200 mm off"));
     out.push_back(finding(Kind::tool_missing, 2, "T4 is not in the tool table"));
     out.push_back(finding(Kind::not_checked, 2, "T4 has no geometry"));
     out.back().makes_unknown = true;

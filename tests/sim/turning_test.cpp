@@ -67,7 +67,7 @@ class Turning : public ::testing::Test {
     setup.stock->place = Vec3(raw == "shifted" ? 1 : 0, 0, -160);
     if (!part.empty()) {
       std::ofstream(box_.folder() + "/part.stl", std::ios::binary)
-          << stl_bytes(revolve(part, 0.003));
+          << stl_bytes(revolve(part, 0.005));
       setup.folder = box_.folder();
       setup.part.emplace();
       setup.part->mesh_path = "part.stl";
