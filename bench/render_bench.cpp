@@ -49,8 +49,8 @@ render::Camera camera_of(const char* name) {
   return *render::camera_by_name(name, aircut::Box3(Vec3(-80, -80, -20), Vec3(530, 190, 70)), 1.6);
 }
 
-void draw(benchmark::State& state, const render::Scene& scene) {
-  auto renderer = render::Renderer::create({1280, 800});
+void draw(benchmark::State& state, const render::Scene& scene, int height = 800) {
+  auto renderer = render::Renderer::create({1280, height});
   if (!renderer) return state.SkipWithError(renderer.error().message.c_str());
   const render::Camera camera = camera_of("iso");
   renderer->draw(scene, camera);  // uploads the meshes
@@ -67,6 +67,60 @@ BENCHMARK(frame_of_50k_triangles)->Unit(benchmark::kMillisecond)->MeasureProcess
 
 void frame_of_300k_triangles(benchmark::State& state) { draw(state, scene_of(24, 12500)); }
 BENCHMARK(frame_of_300k_triangles)->Unit(benchmark::kMillisecond)->MeasureProcessCPUTime();
+
+// A block whose top was milled in rows: a lattice of squares with scallops, walls and a floor.
+TriangleMesh milled_block(const aircut::Box3& box, unsigned cells) {
+  TriangleMesh out;
+  const Vec3 size = box.sizes();
+  const unsigned side = cells + 1;
+  for (unsigned i = 0; i < side; ++i)
+    for (unsigned j = 0; j < side; ++j) {
+      const double u = static_cast<double>(i) / cells, v = static_cast<double>(j) / cells;
+      const double scallop = 1.5 * std::abs(std::sin(60 * v)),
+                   pocket = u * u + v * v < 0.3 ? 18 : 0;
+      out.vertices.emplace_back(box.min() +
+                                Vec3(u * size.x(), v * size.y(), size.z() - scallop - pocket));
+    }
+  for (unsigned i = 0; i < cells; ++i)
+    for (unsigned j = 0; j < cells; ++j) {
+      const unsigned a = i * side + j, b = a + side;
+      out.triangles.push_back({a, b, b + 1});
+      out.triangles.push_back({a, b + 1, a + 1});
+    }
+  // The rim in order, down to the middle of the lower face.
+  const auto foot = static_cast<unsigned>(out.vertices.size());
+  std::vector<unsigned> rim;
+  for (unsigned i = 0; i < cells; ++i) rim.push_back(i * side);
+  for (unsigned j = 0; j < cells; ++j) rim.push_back(cells * side + j);
+  for (unsigned i = cells; i > 0; --i) rim.push_back(i * side + cells);
+  for (unsigned j = cells; j > 0; --j) rim.push_back(j);
+  for (const unsigned top : rim) {
+    Vec3 below = out.vertices[top];
+    below.z() = box.min().z();
+    out.vertices.push_back(below);
+  }
+  const auto n = static_cast<unsigned>(rim.size()), middle = foot + n;
+  out.vertices.emplace_back(box.center().x(), box.center().y(), box.min().z());
+  for (unsigned i = 0; i < n; ++i) {
+    const unsigned k = (i + 1) % n;
+    out.triangles.push_back({rim[i], foot + i, foot + k});
+    out.triangles.push_back({rim[i], foot + k, rim[k]});
+    out.triangles.push_back({middle, foot + k, foot + i});
+  }
+  return out;
+}
+
+void frame_of_a_machine_and_a_stock_of_300k_triangles(benchmark::State& state) {
+  render::Scene scene = scene_of(24, 1800);
+  render::DrawBody stock;
+  stock.mesh = std::make_shared<const TriangleMesh>(
+      milled_block(aircut::Box3(Vec3(40, -40, 0), Vec3(400, 160, 110)), 385));
+  scene.bodies.push_back(std::move(stock));
+  draw(state, scene, 960);
+}
+BENCHMARK(frame_of_a_machine_and_a_stock_of_300k_triangles)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime();
 
 void frame_of_one_box(benchmark::State& state) {
   render::Scene scene = scene_of(1, 100);

@@ -209,6 +209,7 @@ DrawMesh make_draw_mesh(const TriangleMesh& mesh) {
   if (faces.triangles.empty()) return out;
   for (const Triangle& t : faces.triangles)
     for (const std::uint32_t i : t) out.box.extend(faces.points[i]);
+  out.area = std::accumulate(faces.areas.begin(), faces.areas.end(), 0.0);
   const EdgeTable table = make_edge_table(faces);
   Groups groups(3 * faces.triangles.size());
   out.closed = true;

@@ -28,6 +28,7 @@ struct DrawMesh {
   std::vector<DrawEdge> edges;  ///< creases first; edges between coplanar triangles are left out
   bool closed = false;          ///< no rim, all triangles turned outwards: back faces can be culled
   Box3 box;
+  double area = 0;  ///< mm²
 };
 
 /// Triangles without area and corners that are not finite are left out.

@@ -67,12 +67,14 @@ namespace aircut::render {
   X(PFNGLREADBUFFERPROC, ReadBuffer)                                         \
   X(PFNGLREADPIXELSPROC, ReadPixels)                                         \
   X(PFNGLRENDERBUFFERSTORAGEMULTISAMPLEPROC, RenderbufferStorageMultisample) \
+  X(PFNGLSCISSORPROC, Scissor)                                               \
   X(PFNGLSHADERSOURCEPROC, ShaderSource)                                     \
   X(PFNGLSTENCILFUNCPROC, StencilFunc)                                       \
   X(PFNGLSTENCILOPPROC, StencilOp)                                           \
   X(PFNGLTEXIMAGE2DPROC, TexImage2D)                                         \
   X(PFNGLTEXPARAMETERFVPROC, TexParameterfv)                                 \
   X(PFNGLTEXPARAMETERIPROC, TexParameteri)                                   \
+  X(PFNGLTEXSUBIMAGE2DPROC, TexSubImage2D)                                   \
   X(PFNGLUNIFORM1FPROC, Uniform1f)                                           \
   X(PFNGLUNIFORM1IPROC, Uniform1i)                                           \
   X(PFNGLUNIFORM2FPROC, Uniform2f)                                           \

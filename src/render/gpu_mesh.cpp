@@ -68,8 +68,10 @@ GpuMesh::GpuMesh(const Gl& gl, std::shared_ptr<const TriangleMesh> source)
   attribute(gl, 0, 3, 2 * point, 0, 1);
   attribute(gl, 1, 3, 2 * point, point, 1);
   gl.BindVertexArray(0);
-  shape_.vertices = {};
-  shape_.indices = {};
+  if (!may_be_small()) {
+    shape_.vertices = {};
+    shape_.indices = {};
+  }
 }
 
 void GpuMesh::draw_triangles() const {

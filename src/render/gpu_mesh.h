@@ -34,6 +34,9 @@ class GpuMesh {
  public:
   GpuMesh(const Gl& gl, std::shared_ptr<const TriangleMesh> source);
 
+  /// Many triangles without a rim: `shape` keeps vertices and indices, for SmallTriangles.
+  bool may_be_small() const { return shape_.closed && index_count_ >= 3 * 300; }
+  int triangles() const { return index_count_ / 3; }
   void draw_triangles() const;
   /// The ink is the constant attribute 2.
   void draw_creases() const;
@@ -43,7 +46,7 @@ class GpuMesh {
  private:
   const Gl* gl_;
   std::shared_ptr<const TriangleMesh> source_;  // keeps the address taken
-  DrawMesh shape_;                              // vertices and indices live in the buffers only
+  DrawMesh shape_;
   GlBuffer vertices_, indices_, creases_;
   GlArray array_, crease_array_;
   GLsizei index_count_ = 0, crease_count_ = 0;

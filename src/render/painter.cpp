@@ -2,7 +2,7 @@
 //
 //   shadow map ─┐
 //   geometry ───┴─► light ─► smoothed ─┐            (half resolution)
-//   backdrop, floor, solid bodies ◄────┘ ─► edges ─► paths ─► translucent bodies ─► x-ray
+//   solid bodies, floor, backdrop ◄────┘ ─► edges ─► paths ─► translucent bodies ─► x-ray
 //
 // The lighting pass is done in half resolution because occlusion and penumbras are smooth; the full
 // picture picks the neighbours that lie at its own depth.
@@ -21,7 +21,14 @@ void Painter::cull(const GpuMesh& mesh) const {
 
 void Painter::screen_triangle() const {
   gl_->Disable(GL_CULL_FACE);
+  gl_->BindVertexArray(targets_->no_vertices.get());
   gl_->DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Painter::floor_square() const {
+  gl_->Disable(GL_CULL_FACE);
+  gl_->BindVertexArray(targets_->no_vertices.get());
+  gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
 }
 
 void Painter::draw_shadow_map(const Stage& stage) const {
@@ -34,11 +41,12 @@ void Painter::draw_shadow_map(const Stage& stage) const {
   gl.Disable(GL_BLEND);
   gl.Disable(GL_STENCIL_TEST);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
+  draw_small_shadows(stage);
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5f, 2.0f);
   programs_->depth.use();
   for (const StageItem& item : stage.items) {
-    if (item.body->translucent) continue;
+    if (item.body->translucent || item.small) continue;
     programs_->depth.set("transform", Eigen::Matrix4d(stage.world_to_shadow * item.model));
     cull(*item.mesh);
     item.mesh->draw_triangles();
@@ -53,9 +61,10 @@ void Painter::draw_light(const Frame& frame) const {
   gl.Viewport(0, 0, targets_->half_width, targets_->half_height);
   gl.ClearColor(0, 0, 0, 0);
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  draw_small_geometry(frame);
   set_body_program(frame, programs_->geometry);
   for (const StageItem& item : stage.items) {
-    if (item.body->translucent || !in_view(item.box, frame.to_clip)) continue;
+    if (item.body->translucent || item.small || !in_view(item.box, frame.to_clip)) continue;
     programs_->geometry.set("model", item.model);
     cull(*item.mesh);
     item.mesh->draw_triangles();
@@ -65,8 +74,7 @@ void Painter::draw_light(const Frame& frame) const {
     const Vec3 c = stage.solid.center();
     programs_->floor_geometry.set(
         "square", Eigen::Vector4d(c.x(), c.y(), stage.floor->height, stage.floor->extent));
-    gl.Disable(GL_CULL_FACE);
-    gl.DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    floor_square();
   }
 
   gl.Disable(GL_DEPTH_TEST);
@@ -101,7 +109,7 @@ void Painter::draw_light(const Frame& frame) const {
   smooth.set("light", 1);
   smooth.set("unproject", frame.unproject);
   smooth.set("parallel", frame.parallel());
-  smooth.set("tolerance", 3 / frame.half_pixels_per_mm(targets_->half_height));
+  smooth.set("tolerance", 2 / frame.half_pixels_per_mm(targets_->half_height));
   gl.ActiveTexture(GL_TEXTURE1);
   gl.BindFramebuffer(GL_FRAMEBUFFER, targets_->smoothed.framebuffer.get());
   gl.BindTexture(GL_TEXTURE_2D, targets_->light.color.get());
@@ -137,7 +145,7 @@ void Painter::set_body_program(const Frame& frame, const Program& program) const
 void Painter::draw_tile(const Stage& stage, const Scene& scene, const Tile& tile,
                         double line_scale) const {
   const Gl& gl = *gl_;
-  Frame frame{stage, scene, tile, line_scale, tile_projection(stage.view, tile), {}, {}, {}};
+  Frame frame{stage, scene, tile, line_scale, tile_projection(stage.view, tile), {}, {}, {}, {}};
   frame.to_clip = frame.projection * stage.view.view;
   const Eigen::Matrix4d& Q = frame.projection;
   // clip = Q·camera, so camera = (ndc + offset) · scale, times the depth in a perspective view.
@@ -154,15 +162,16 @@ void Painter::draw_tile(const Stage& stage, const Scene& scene, const Tile& tile
   gl.Disable(GL_BLEND);
   gl.Disable(GL_STENCIL_TEST);
   gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  prepare_small(frame);
   draw_light(frame);
 
   gl.BindFramebuffer(GL_FRAMEBUFFER, targets_->multisampled.get());
   gl.Viewport(0, 0, targets_->width, targets_->height);
   gl.Enable(GL_DEPTH_TEST);
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-  draw_backdrop(frame);
+  draw_small(frame);
   draw_solids(frame);
-  draw_floor(frame);
+  draw_ground(frame);
   draw_edges(frame);
   draw_paths(frame);
   draw_translucent(frame);

@@ -7,10 +7,12 @@
 
 namespace aircut::render {
 
+class SmallTriangles;
+
 class Painter {
  public:
-  Painter(const Gl& gl, const Programs& programs, const Targets& targets)
-      : gl_(&gl), programs_(&programs), targets_(&targets) {}
+  Painter(const Gl& gl, const Programs& programs, const Targets& targets, SmallTriangles& small)
+      : gl_(&gl), programs_(&programs), targets_(&targets), small_(&small) {}
 
   /// Once per picture; the map serves all tiles.
   void draw_shadow_map(const Stage& stage) const;
@@ -32,8 +34,12 @@ class Painter {
   void start_ids(const Tile& tile) const;
   void draw_id(const StageItem& item, const Eigen::Matrix4d& to_clip) const;
   void draw_light(const Frame& frame) const;
-  void draw_backdrop(const Frame& frame) const;
-  void draw_floor(const Frame& frame) const;
+  bool draw_small_shadows(const Stage& stage) const;
+  void prepare_small(Frame& frame) const;
+  void draw_small_rect(const Frame& frame, const Program& program, int shrink) const;
+  void draw_small_geometry(const Frame& frame) const;
+  void draw_small(const Frame& frame) const;
+  void draw_ground(const Frame& frame) const;
   void draw_solids(const Frame& frame) const;
   void draw_edges(const Frame& frame) const;
   void draw_paths(const Frame& frame) const;
@@ -45,10 +51,12 @@ class Painter {
   void set_line_program(const Frame& frame, double width, double lift, double opacity) const;
   void cull(const GpuMesh& mesh) const;
   void screen_triangle() const;
+  void floor_square() const;
 
   const Gl* gl_;
   const Programs* programs_;
   const Targets* targets_;
+  SmallTriangles* small_;
 };
 
 }  // namespace aircut::render

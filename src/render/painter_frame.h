@@ -1,10 +1,12 @@
 // What the parts of the painter share while one tile is drawn.
 #pragma once
 
+#include <cstdio>
+#include <ctime>
 #include <vector>
 
 #include "render/painter.h"
-
+#include "render/small_triangles.h"
 namespace aircut::render {
 
 struct Painter::Frame {
@@ -15,6 +17,7 @@ struct Painter::Frame {
   Eigen::Matrix4d projection;  // camera to clip space of the tile
   Eigen::Vector4d unproject;
   Eigen::Matrix4d to_clip;        // render frame to clip space of the tile
+  PixelRect small;                // what bodies of small triangles may cover
   std::vector<int> alarm_number;  // per body of the scene: its number among those in alarm, or -1
 
   const View& view() const { return stage.view; }
@@ -22,6 +25,12 @@ struct Painter::Frame {
   // Pixels of the half-resolution picture per mm, at depth 1 or everywhere.
   double half_pixels_per_mm(int half_height) const { return projection(1, 1) * half_height / 2; }
 };
+
+struct Material {
+  Vec3 base;  // linear
+  double metal = 0, roughness = 0.5;
+};
+Material material_of(const machine::Color& color);
 
 constexpr double edge_lift = 5e-4;  ///< of the distance to the eye
 constexpr double path_lift = 1.2e-3;

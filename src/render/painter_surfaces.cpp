@@ -8,10 +8,7 @@ namespace {
 
 Vec3 to_linear(const Vec3& display) { return display.array().pow(2.2).matrix(); }
 
-struct Material {
-  Vec3 base;  // linear
-  double metal = 0, roughness = 0.5;
-};
+}  // namespace
 
 // Grey means bare metal, colour means paint: machine files give no more than a colour.
 Material material_of(const machine::Color& color) {
@@ -27,33 +24,28 @@ Material material_of(const machine::Color& color) {
   return out;
 }
 
-}  // namespace
-
-void Painter::draw_backdrop(const Frame& frame) const {
-  const Program& program = programs_->background;
-  program.use();
+// Fills what no body covers: the floor, and the backdrop beside it.
+void Painter::draw_ground(const Frame& frame) const {
   const double w = frame.view().width, h = frame.view().height;
-  program.set("frame", Eigen::Vector4d(1 / w, 1 / h, frame.tile.x / w, frame.tile.y / h));
-  gl_->Disable(GL_DEPTH_TEST);
+  const Eigen::Vector4d whole(1 / w, 1 / h, frame.tile.x / w, frame.tile.y / h);
+  if (frame.stage.floor) {
+    const Floor& floor = *frame.stage.floor;
+    const Program& program = programs_->floor;
+    set_body_program(frame, program);
+    const Vec3 c = frame.stage.solid.center();
+    program.set("frame", whole);
+    program.set("square", Eigen::Vector4d(c.x(), c.y(), floor.height, floor.extent));
+    // Lines pass through the world's origin.
+    program.set("grid", Vec3(-frame.view().centre.x(), -frame.view().centre.y(), floor.step));
+    program.set("fade", floor.extent * 0.75);
+    program.set("pixel", frame.line_scale);
+    floor_square();
+  }
+  programs_->background.use();
+  programs_->background.set("frame", whole);
+  gl_->DepthMask(GL_FALSE);
   screen_triangle();
-  gl_->Enable(GL_DEPTH_TEST);
-}
-
-void Painter::draw_floor(const Frame& frame) const {
-  if (!frame.stage.floor) return;
-  const Floor& floor = *frame.stage.floor;
-  const Program& program = programs_->floor;
-  set_body_program(frame, program);
-  const Vec3 c = frame.stage.solid.center();
-  program.set("square", Eigen::Vector4d(c.x(), c.y(), floor.height, floor.extent));
-  // Lines pass through the world's origin.
-  program.set("grid", Vec3(-frame.view().centre.x(), -frame.view().centre.y(), floor.step));
-  program.set("fade", floor.extent * 0.75);
-  program.set("pixel", frame.line_scale);
-  gl_->Disable(GL_CULL_FACE);
-  gl_->Enable(GL_BLEND);
-  gl_->DrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-  gl_->Disable(GL_BLEND);
+  gl_->DepthMask(GL_TRUE);
 }
 
 void Painter::set_material(const StageItem& item, const Frame& frame) const {
@@ -81,7 +73,7 @@ void Painter::draw_solids(const Frame& frame) const {
   gl.Enable(GL_STENCIL_TEST);
   gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   for (const StageItem& item : frame.stage.items) {
-    if (item.body->translucent || !in_view(item.box, frame.to_clip)) continue;
+    if (item.body->translucent || item.small || !in_view(item.box, frame.to_clip)) continue;
     gl.StencilFunc(GL_ALWAYS, item.body->highlight ? seen : 0, 0xFF);
     set_material(item, frame);
     cull(*item.mesh);

@@ -12,25 +12,40 @@ Expected<Programs> link_programs(const Gl& gl) {
     Program Programs::*program;
     const char* vertex;
     const char* fragment;
-    const char* shared = "";  // functions that the fragment shader calls
+    std::vector<const char*> shared = {};  // functions that the fragment shader calls
   };
-  const std::array<Row, 11> rows = {{
-      {&Programs::body, s::body_vertex, s::body_fragment, s::gather_light},
+  const std::array<Row, 13> rows = {{
+      {&Programs::body,
+       s::body_vertex,
+       s::body_fragment,
+       {s::parallel_view, s::gather_light, s::surface}},
       {&Programs::geometry, s::body_vertex, s::geometry_fragment},
       {&Programs::depth, s::depth_vertex, s::depth_fragment},
       {&Programs::id, s::depth_vertex, s::id_fragment},
-      {&Programs::light, s::screen_vertex, s::light_fragment, s::half_position},
-      {&Programs::smooth, s::screen_vertex, s::smooth_fragment, s::half_position},
-      {&Programs::background, s::screen_vertex, s::background_fragment},
-      {&Programs::floor, s::floor_vertex, s::floor_fragment, s::gather_light},
+      {&Programs::light, s::screen_vertex, s::light_fragment, {s::parallel_view, s::half_position}},
+      {&Programs::smooth,
+       s::screen_vertex,
+       s::smooth_fragment,
+       {s::parallel_view, s::half_position}},
+      {&Programs::background, s::screen_vertex, s::background_fragment, {s::backdrop}},
+      {&Programs::floor, s::floor_vertex, s::floor_fragment, {s::gather_light, s::backdrop}},
+      {&Programs::small,
+       s::screen_vertex,
+       s::small_fragment,
+       {s::parallel_view, s::small_texel, s::gather_light, s::surface}},
+      {&Programs::small_geometry,
+       s::screen_vertex,
+       s::small_geometry_fragment,
+       {s::parallel_view, s::small_texel}},
       {&Programs::floor_geometry, s::floor_vertex, s::floor_geometry_fragment},
       {&Programs::xray, s::body_vertex, s::xray_fragment},
       {&Programs::line, s::line_vertex, s::line_fragment},
   }};
   Programs out;
   for (const Row& row : rows) {
-    auto program = Program::link(gl, std::string(s::version) + row.vertex,
-                                 std::string(s::version) + row.shared + row.fragment);
+    std::string fragment = s::version;
+    for (const char* part : row.shared) fragment += part;
+    auto program = Program::link(gl, std::string(s::version) + row.vertex, fragment + row.fragment);
     if (!program) return unexpected(program.error());
     out.*row.program = std::move(*program);
   }

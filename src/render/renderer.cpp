@@ -9,6 +9,7 @@
 #include "render/finding_camera.h"
 #include "render/overlay.h"
 #include "render/painter.h"
+#include "render/small_triangles.h"
 
 namespace aircut::render {
 namespace {
@@ -82,6 +83,7 @@ struct Renderer::Impl {
   std::optional<MeshCache> meshes;
   Programs programs;
   Targets targets;
+  SmallTriangles small;
 
   ~Impl() {
     if (context != nullptr) context->make_current();
@@ -153,7 +155,7 @@ Image Renderer::draw(const Scene& scene, const Camera& camera) {
   r.context->make_current();
   const int width = r.size.width * r.factor(), height = r.size.height * r.factor();
   const Stage stage = make_stage(scene, camera, *r.meshes, width, height);
-  const Painter painter(r.gl, r.programs, r.targets);
+  const Painter painter(r.gl, r.programs, r.targets, r.small);
   painter.draw_shadow_map(stage);
   Image image = make_image(width, height, {});
   // Lines keep their share of large pictures; below 0.7 of a pixel they would be lost.
@@ -202,7 +204,7 @@ std::vector<int> Renderer::visible_pixels(const Scene& scene, const Camera& came
   Impl& r = *impl_;
   r.context->make_current();
   const Stage stage = make_stage(scene, camera, *r.meshes, r.size.width, r.size.height);
-  const Painter painter(r.gl, r.programs, r.targets);
+  const Painter painter(r.gl, r.programs, r.targets, r.small);
   std::vector<int> out(scene.bodies.size(), 0);
   for (int y = 0; y < r.size.height; y += r.tile_height)
     for (int x = 0; x < r.size.width; x += r.tile_width) {
@@ -235,7 +237,7 @@ Camera Renderer::camera_for_finding(const std::vector<DrawBody>& bodies, const V
   const Tile tile{0, 0, width, height};
   const auto middle = static_cast<std::size_t>(height / 2) * static_cast<std::size_t>(width) +
                       static_cast<std::size_t>(width / 2);
-  const Painter painter(r.gl, r.programs, r.targets);
+  const Painter painter(r.gl, r.programs, r.targets, r.small);
   Scene scene;
   scene.bodies = bodies;
   scene.floor = false;

@@ -2,18 +2,22 @@
 
 namespace aircut::render::shaders {
 
-const char* const version = "#version 330 core\n";
+// gl_SampleMask comes with the extension.
+const char* const version = "#version 330 core\n#extension GL_ARB_sample_shading : enable\n";
+
+const char* const parallel_view = "uniform float parallel;      // 1: orthographic\n";
 
 // Ambient light (x) and key light (y) of this pixel from the half-resolution picture: of the four
 // neighbours, those that lie at its own depth.
 const char* const gather_light = R"(
 uniform sampler2D light;
-vec2 gathered(float view_depth) {
+// `slope` is how much the depth changes from a pixel to the next.
+vec2 gathered(float view_depth, float slope) {
   ivec2 size = textureSize(light, 0);
   vec2 p = gl_FragCoord.xy * 0.5 - 0.5;
   ivec2 i = ivec2(floor(p));
   vec2 f = p - vec2(i);
-  float tolerance = 0.002 * view_depth + 3.0 * fwidth(view_depth);
+  float tolerance = 0.002 * view_depth + 3.0 * slope;
   vec2 sum = vec2(0.0);
   float weight = 0.0;
   for (int k = 0; k < 4; ++k) {
@@ -32,7 +36,6 @@ vec2 gathered(float view_depth) {
 const char* const half_position = R"(
 uniform sampler2D geometry;
 uniform vec4 unproject;      // scale and offset from clip to camera coordinates
-uniform float parallel;      // 1: orthographic
 vec3 position_at(ivec2 pixel, float depth) {
   vec2 ndc = (vec2(pixel) + 0.5) / vec2(textureSize(geometry, 0)) * 2.0 - 1.0;
   vec2 p = (ndc + unproject.zw) * unproject.xy;
@@ -61,24 +64,15 @@ void main() {
 // Shading model: Cook-Torrance with the GGX distribution (Walter et al. 2007), Schlick's Fresnel
 // term, Lambert for what is not metal; three lamps (key with shadow, fill, rim) and an analytic
 // studio of sky, floor and soft boxes for reflections. Karis' fit gives the environment's Fresnel.
-const char* const body_fragment = R"(in vec3 world_position;
-in vec3 world_normal;
-in float view_depth;
+const char* const surface = R"(
 uniform vec3 eye;             // world
 uniform vec3 back;            // from the scene to the eye, for parallel views
-uniform float parallel;       // 1: orthographic
-uniform vec3 base;            // linear colour
-uniform float metal;
-uniform float roughness;
-uniform float opacity;
 uniform vec3 key, fill, rim;  // directions to the lamps
 uniform vec3 right;           // of the camera, horizontal
 uniform vec3 ahead;           // horizontal direction into the picture
-uniform float use_light;
 // The studio's walls are near: a flat face reflects another part of them at each of its ends.
 uniform vec3 target;          // world
 uniform float studio_bend;    // per mm
-out vec4 color;
 
 float ggx(float nh, float a) {
   float a2 = a * a;
@@ -116,10 +110,9 @@ vec3 studio(vec3 r, float soft) {
   return c + vec3(1.00, 0.98, 0.95) * (1.5 * overhead + 1.4 * left + beside) - vec3(0.16) * far_wall;
 }
 
-void main() {
+// Display colour of a point with normal n, linear colour `base`, and ambient (x) and key light (y).
+vec3 shaded(vec3 world_position, vec3 n, vec3 base, float metal, float roughness, vec2 g) {
   vec3 v = parallel > 0.5 ? back : normalize(eye - world_position);
-  vec3 n = normalize(gl_FrontFacing ? world_normal : -world_normal);
-  vec2 g = use_light > 0.5 ? gathered(view_depth) : vec2(1.0);
   vec3 diffuse = base * (1.0 - metal);
   vec3 f0 = mix(vec3(0.045), base, metal);
   float a = roughness * roughness;
@@ -145,8 +138,25 @@ void main() {
   c *= 1.34;
   c = c * (1.0 + c / 7.0) / (1.0 + c);
   c = pow(c, vec3(1.0 / 2.2));
-  c = clamp((c - 0.5) * 1.13 + 0.525, 0.0, 1.0);
-  float rim_opacity = opacity < 1.0 ? mix(0.85, opacity, smoothstep(0.0, 0.55, nv)) : 1.0;
+  return clamp((c - 0.5) * 1.13 + 0.525, 0.0, 1.0);
+}
+)";
+
+const char* const body_fragment = R"(in vec3 world_position;
+in vec3 world_normal;
+in float view_depth;
+uniform vec3 base;            // linear colour
+uniform float metal;
+uniform float roughness;
+uniform float opacity;
+uniform float use_light;
+out vec4 color;
+void main() {
+  vec3 n = normalize(gl_FrontFacing ? world_normal : -world_normal);
+  vec2 g = use_light > 0.5 ? gathered(view_depth, fwidth(view_depth)) : vec2(1.0);
+  vec3 c = shaded(world_position, n, base, metal, roughness, g);
+  vec3 v = parallel > 0.5 ? back : normalize(eye - world_position);
+  float rim_opacity = opacity < 1.0 ? mix(0.85, opacity, smoothstep(0.0, 0.55, clamp(abs(dot(n, v)), 0.0, 1.0))) : 1.0;
   color = vec4(c, rim_opacity);
 }
 )";
@@ -175,9 +185,10 @@ out vec4 color;
 void main() { color = id; }
 )";
 
+// At the far end: with a depth test it fills what nothing covers.
 const char* const screen_vertex = R"(void main() {
   vec2 p = vec2(float((gl_VertexID & 1) * 4) - 1.0, float((gl_VertexID >> 1) * 4) - 1.0);
-  gl_Position = vec4(p, 0.0, 1.0);
+  gl_Position = vec4(p, 1.0, 1.0);
 }
 )";
 
@@ -198,66 +209,72 @@ uniform float lamp_slope;    // penumbra width per distance of the blocker
 out vec4 light;
 
 
-float occlusion(vec3 p, vec3 n, ivec2 pixel, float depth, float turn) {
-  ivec2 size = textureSize(geometry, 0);
+// Loops run as often as some pixel of a vector needs them: where there is nothing to do the count
+// is 0. Spirals turn by the golden angle from sample to sample.
+const mat2 golden = mat2(-0.73736888, 0.67549029, -0.67549029, -0.73736888);
+
+float occlusion(vec3 p, vec3 n, ivec2 pixel, float depth, vec2 spin, int samples) {
+  ivec2 last = textureSize(geometry, 0) - 1;
   float reach = radius * (parallel > 0.5 ? pixels_per_mm : pixels_per_mm / depth);
   reach = clamp(reach, 4.0, 110.0);
   float sum = 0.0;
-  const int samples = 14;
+  float rr = radius * radius;
   for (int i = 0; i < samples; ++i) {
     float t = (float(i) + 0.5) / float(samples);
-    float angle = turn + float(i) * 2.39996323;
-    ivec2 at = pixel + ivec2(round(t * reach * vec2(cos(angle), sin(angle))));
-    at = clamp(at, ivec2(0), size - 1);
+    ivec2 at = clamp(pixel + ivec2(round(t * reach * spin)), ivec2(0), last);
+    spin = golden * spin;
     float d = texelFetch(geometry, at, 0).w;
     vec3 v = position_at(at, d) - p;
     float vv = dot(v, v);
     float vn = dot(v, n) - 0.012 * radius;
-    float f = max(radius * radius - vv, 0.0) / (radius * radius);
-    sum += d > 0.0 ? f * f * f * max(vn, 0.0) * radius / (vv + 0.02 * radius * radius) : 0.0;
+    float f = max(rr - vv, 0.0) / rr;
+    sum += d > 0.0 ? f * f * f * max(vn, 0.0) * radius / (vv + 0.02 * rr) : 0.0;
   }
-  return clamp(1.0 - 2.6 * sum / float(samples), 0.0, 1.0);
+  return samples == 0 ? 1.0 : clamp(1.0 - 2.6 * sum / float(samples), 0.0, 1.0);
 }
 
-float lit(vec3 world, vec3 n, float turn) {
-  if (dot(n, key) < 0.0) return 0.0;
+float lit(vec3 world, vec3 n, vec2 spin, bool wanted) {
   float texel = shadow_size / float(textureSize(shadow_map, 0).x);
   vec3 s = (to_shadow * vec4(world + n * texel * 2.0 + key * texel, 1.0)).xyz;
-  if (any(lessThan(s, vec3(0.0))) || any(greaterThan(s, vec3(1.0)))) return 1.0;
+  bool outside = any(lessThan(s, vec3(0.0))) || any(greaterThan(s, vec3(1.0)));
+  bool facing = dot(n, key) >= 0.0;
   float search = 0.022;
   float blockers = 0.0, total = 0.0;
-  for (int i = 0; i < 10; ++i) {
-    float angle = turn + float(i) * 2.39996323;
-    float r = sqrt((float(i) + 0.5) / 10.0) * search;
-    float d = texture(shadow_map, s.xy + r * vec2(cos(angle), sin(angle))).x;
+  int looks = wanted && facing && !outside ? 8 : 0;
+  vec2 turned = spin;
+  for (int i = 0; i < looks; ++i) {
+    float r = sqrt((float(i) + 0.5) / 8.0) * search;
+    float d = texture(shadow_map, s.xy + r * turned).x;
+    turned = golden * turned;
     if (d < s.z) { blockers += 1.0; total += d; }
   }
-  if (blockers < 0.5) return 1.0;
-  float gap = max(s.z - total / blockers, 0.0) * shadow_depth / shadow_size;
+  float gap = max(s.z - total / max(blockers, 1.0), 0.0) * shadow_depth / shadow_size;
   float width = clamp(gap * lamp_slope, 1.6 * texel / shadow_size, search);
   float open = 0.0;
-  for (int i = 0; i < 14; ++i) {
-    float angle = turn + float(i) * 2.39996323;
-    float r = sqrt((float(i) + 0.5) / 14.0) * width;
-    float d = texture(shadow_map, s.xy + r * vec2(cos(angle), sin(angle))).x;
+  int taps = blockers > 0.5 ? 12 : 0;
+  for (int i = 0; i < taps; ++i) {
+    float r = sqrt((float(i) + 0.5) / 12.0) * width;
+    float d = texture(shadow_map, s.xy + r * spin).x;
+    spin = golden * spin;
     // A wide kernel on a slope meets the surface itself: the bias grows with the kernel.
     open += d + 0.6 * r * shadow_size / shadow_depth * 0.6 < s.z ? 0.0 : 1.0;
   }
-  return open / 14.0;
+  return !facing ? 0.0 : taps == 0 ? 1.0 : open / 12.0;
 }
 
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   vec4 g = texelFetch(geometry, pixel, 0);
-  light = vec4(1.0, 1.0, g.w, 0.0);
-  if (g.w <= 0.0) return;
+  bool something = g.w > 0.0;
   // 16 rotations in an order that spreads neighbours apart.
   int cell = (((pixel.x ^ pixel.y) & 1) << 3) | ((pixel.x & 1) << 2) | (((pixel.x ^ pixel.y) & 2)) | ((pixel.x & 2) >> 1);
   float turn = float(cell) * (6.2831853 / 16.0);
+  vec2 spin = vec2(cos(turn), sin(turn));
   vec3 p = position_at(pixel, g.w);
-  vec3 n = normalize(g.xyz);
-  light.x = occlusion(p, n, pixel, g.w, turn);
-  light.y = lit((camera_to_world * vec4(p, 1.0)).xyz, mat3(camera_to_world) * n, turn);
+  vec3 n = something ? normalize(g.xyz) : vec3(0.0, 0.0, 1.0);
+  light = vec4(1.0, 1.0, g.w, 0.0);
+  light.x = occlusion(p, n, pixel, g.w, spin, something ? 11 : 0);
+  light.y = lit((camera_to_world * vec4(p, 1.0)).xyz, mat3(camera_to_world) * n, spin, something);
 }
 )";
 
@@ -273,28 +290,32 @@ void main() {
   float thick = tolerance * (parallel > 0.5 ? 1.0 : g.w);
   vec2 sum = texelFetch(light, pixel, 0).xy;
   float weight = 1.0;
-  for (int i = -2; i <= 2; ++i) {
+  int end = g.w > 0.0 ? 3 : -2;
+  for (int i = -2; i < end; ++i) {
     if (i == 0) continue;
     ivec2 at = clamp(pixel + i * along, ivec2(0), last);
-    vec4 o = texelFetch(geometry, at, 0);
-    float off = abs(dot(g.xyz, position_at(at, o.w) - p));
-    float w = max(1.0 - off / thick, 0.0) * max(dot(g.xyz, o.xyz), 0.0) * (abs(i) == 2 ? 0.5 : 1.0);
-    sum += w * texelFetch(light, at, 0).xy;
+    vec3 o = texelFetch(light, at, 0).xyz;
+    float off = abs(dot(g.xyz, position_at(at, o.z) - p));
+    float w = max(1.0 - off / thick, 0.0) * (abs(i) == 2 ? 0.5 : 1.0);
+    sum += w * o.xy;
     weight += w;
   }
   smoothed = vec4(sum / weight, g.w, 0.0);
 }
 )";
 
-const char* const background_fragment =
-    R"(uniform vec4 frame;          // pixel to 0..1 of the whole picture: scale, offset
-out vec4 color;
-vec3 backdrop(vec2 p) {
+const char* const backdrop = R"(
+uniform vec4 frame;          // pixel to 0..1 of the whole picture: scale, offset
+vec3 backdrop() {
+  vec2 p = gl_FragCoord.xy * frame.xy + frame.zw;
   vec3 c = mix(vec3(0.905, 0.915, 0.925), vec3(0.795, 0.825, 0.860), smoothstep(0.25, 1.05, p.y));
   float d = length((p - vec2(0.5, 0.45)) * vec2(1.0, 0.8));
   return c * (1.0 - 0.10 * smoothstep(0.35, 0.85, d));
 }
-void main() { color = vec4(backdrop(gl_FragCoord.xy * frame.xy + frame.zw), 1.0); }
+)";
+
+const char* const background_fragment = R"(out vec4 color;
+void main() { color = vec4(backdrop(), 1.0); }
 )";
 
 const char* const floor_vertex = R"(uniform mat4 view;
@@ -330,24 +351,22 @@ uniform float fade;          // distance from the centre at which the floor is g
 uniform float pixel;         // line width in pixels
 out vec4 color;
 // Coverage of grid lines `step` apart; lines closer than a few pixels dissolve into their mean.
-float lines(vec2 p, float step, float width) {
-  vec2 q = p / step;
-  vec2 w = fwidth(q);
-  vec2 d = abs(fract(q - 0.5) - 0.5) / max(w, vec2(1e-6));
+float lines(vec2 p, vec2 change, float step, float width) {
+  vec2 w = change / step;
+  vec2 d = abs(fract(p / step - 0.5) - 0.5) / max(w, vec2(1e-6));
   vec2 c = clamp(0.5 * width + 0.5 - d, 0.0, 1.0) * clamp(0.9 - 2.4 * w, 0.0, 1.0);
   return max(c.x, c.y);
 }
 void main() {
-  vec2 g = gathered(view_depth);
+  vec2 g = gathered(view_depth, fwidth(view_depth));
   float off = length(world_position.xy - square.xy) / fade;
   float near = 1.0 - smoothstep(0.35, 1.0, off);
-  vec2 p = world_position.xy - grid.xy;
-  float fine = lines(p, grid.z, pixel), coarse = lines(p, grid.z * 5.0, pixel * 1.25);
+  vec2 p = world_position.xy - grid.xy, change = fwidth(p);
+  float fine = lines(p, change, grid.z, pixel), coarse = lines(p, change, grid.z * 5.0, pixel * 1.25);
   float shade = mix(1.0, 0.60 + 0.40 * g.y, near) * mix(1.0, 0.30 + 0.70 * g.x, near);
   float ink = max(fine * 0.07, coarse * 0.17) * near;
   // Only darkens what lies behind: the floor melts into the background.
-  float dark = 1.0 - shade * (1.0 - ink);
-  color = vec4(vec3(0.10, 0.12, 0.16), dark);
+  color = vec4(mix(backdrop(), vec3(0.10, 0.12, 0.16), 1.0 - shade * (1.0 - ink)), 1.0);
 }
 )";
 

@@ -7,6 +7,9 @@ namespace aircut::render::shaders {
 extern const char* const version;
 extern const char* const gather_light;
 extern const char* const half_position;
+extern const char* const parallel_view;
+extern const char* const surface;
+extern const char* const small_texel;
 
 // Surfaces of bodies, lit.
 extern const char* const body_vertex;
@@ -20,11 +23,15 @@ extern const char* const id_fragment;
 extern const char* const screen_vertex;
 extern const char* const light_fragment;
 extern const char* const smooth_fragment;
+extern const char* const backdrop;
 extern const char* const background_fragment;
 // The floor catches shadows and carries the grid.
 extern const char* const floor_vertex;
 extern const char* const floor_fragment;
 extern const char* const floor_geometry_fragment;
+// Bodies of small triangles, from pixels.
+extern const char* const small_geometry_fragment;
+extern const char* const small_fragment;
 // What covered bodies in alarm look like through their covers.
 extern const char* const xray_fragment;
 // Straight lines of constant width in pixels.

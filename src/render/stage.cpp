@@ -78,6 +78,22 @@ void place_shadow(Stage& stage) {
   stage.shadow_depth = 2 * radius;
 }
 
+// Whether a body's triangles are mean pixels or so, where SmallTriangles is the quicker. What it
+// draws must lie before the eye.
+bool has_small_triangles(const StageItem& item, const View& view) {
+  if (!item.mesh->may_be_small() || item.body->translucent || item.body->highlight) return false;
+  const Eigen::Matrix4d to_clip = view.view_projection();
+  for (const Vec3& p : corners(item.box)) {
+    const Eigen::Vector4d c = to_clip * Eigen::Vector4d(p.x(), p.y(), p.z(), 1);
+    if (c.z() < -0.999 * c.w() || c.w() <= 0) return false;
+  }
+  const double depth = -(view.axes.row(2) * (item.box.center() - view.eye)).value();
+  const double mm_per_pixel =
+      view.mm_per_pixel * (view.orthographic ? 1 : std::abs(depth) / view.distance);
+  constexpr double small = 200;  // pixels; a triangle is mostly seen aslant
+  return item.mesh->shape().area < small * mm_per_pixel * mm_per_pixel * item.mesh->triangles();
+}
+
 }  // namespace
 
 double round_down_125(double value) {
@@ -148,6 +164,7 @@ Stage make_stage(const Scene& scene, const Camera& camera, MeshCache& meshes, in
     item.depth = 1e300;
     for (const Vec3& corner : corners(item.box))
       item.depth = std::min(item.depth, -(out.view.axes.row(2) * (corner - out.view.eye)).value());
+    item.small = has_small_triangles(item, out.view);
   }
   std::stable_sort(out.items.begin(), out.items.end(),
                    [](const StageItem& a, const StageItem& b) { return a.depth < b.depth; });

@@ -14,7 +14,8 @@ struct StageItem {
   const GpuMesh* mesh = nullptr;
   Eigen::Matrix4d model = Eigen::Matrix4d::Identity();  ///< body to render frame
   Box3 box;                                             ///< render frame
-  double depth = 0;  ///< of its nearest corner, mm in front of the eye
+  double depth = 0;    ///< of its nearest corner, mm in front of the eye
+  bool small = false;  ///< triangles of a few pixels: drawn by SmallTriangles
 };
 
 /// A rectangle of the whole picture, pixels, from the bottom left.

@@ -65,6 +65,8 @@ Expected<Targets> make_picture_targets(const Gl& gl, int width, int height) {
     if (!made) return unexpected(made.error());
     *target = std::move(*made);
   }
+  out.no_vertices = make_array(gl);
+  out.small = make_texture(gl, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, width, height);
   if (auto ok = add_shadow_map(gl, out); !ok) return unexpected(ok.error());
   return out;
 }

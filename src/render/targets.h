@@ -20,7 +20,9 @@ struct Targets {
   GlFramebuffer multisampled;
   GlRenderbuffer resolved_color;
   GlFramebuffer resolved;
+  GlTexture small;  ///< bodies of small triangles, as SmallTexel
   TextureTarget geometry, light, smoothed;
+  GlArray no_vertices;  ///< for shaders that make their own: a core profile wants an array bound
   GlTexture shadow_map;
   GlFramebuffer shadow;
   GlRenderbuffer id_color, id_depth;  ///< one sample

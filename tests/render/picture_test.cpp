@@ -107,6 +107,71 @@ TEST(Picture, ShowsABodyInAlarmThroughItsCover) {
   EXPECT_TRUE(is_red(pixel(open, 200, 200)));
 }
 
+// A ball of so many triangles that they are drawn one by one on the processor.
+TriangleMesh fine_ball(double r) {
+  TriangleMesh out;
+  constexpr unsigned rings = 120, around = 240;
+  for (unsigned i = 1; i < rings; ++i)
+    for (unsigned j = 0; j < around; ++j) {
+      const double a = std::numbers::pi * i / rings, b = 2 * std::numbers::pi * j / around;
+      out.vertices.emplace_back(r * std::sin(a) * std::cos(b), r * std::sin(a) * std::sin(b),
+                                r * std::cos(a));
+    }
+  out.vertices.emplace_back(0, 0, r);
+  out.vertices.emplace_back(0, 0, -r);
+  const unsigned top = (rings - 1) * around, end = top + 1;
+  for (unsigned j = 0; j < around; ++j) {
+    const unsigned k = (j + 1) % around;
+    out.triangles.push_back({top, j, k});
+    for (unsigned i = 0; i + 2 < rings; ++i) {
+      const unsigned a = i * around, b = a + around;
+      out.triangles.push_back({a + j, b + j, b + k});
+      out.triangles.push_back({a + j, b + k, a + k});
+    }
+    const unsigned last = (rings - 2) * around;
+    out.triangles.push_back({end, last + k, last + j});
+  }
+  return out;
+}
+
+// With one triangle missing the mesh is open and drawn by OpenGL like any other.
+TEST(Picture, DrawsSmallTrianglesAsItDrawsLargeOnes) {
+  Renderer r = renderer(side, side);
+  Scene scene = rich_scene();
+  scene.bodies.push_back(body("ball", fine_ball(35), Vec3(-55, 20, 35)));
+  scene.bodies.back().color = {170, 120, 60};
+  for (const bool parallel : {false, true}) {
+    Camera camera = rich_camera();
+    if (parallel) camera.field_of_view = 0, camera.height = 260;
+    const Image small = r.draw(scene, camera);
+    Scene open = scene;
+    TriangleMesh mesh = fine_ball(35);
+    mesh.triangles.pop_back();  // at the ball's foot
+    open.bodies.back() = body("ball", std::move(mesh), Vec3(-55, 20, 35));
+    open.bodies.back().color = {170, 120, 60};
+    const Image large = r.draw(open, camera);
+    EXPECT_LT(mean_difference(small, large), 0.3);
+    open.bodies.pop_back();
+    EXPECT_GT(mean_difference(small, r.draw(open, camera)), 1.5);
+  }
+}
+
+TEST(Picture, DrawsAGroundUnderSmallTrianglesAlone) {
+  Renderer r = renderer(side, side);
+  Scene scene = bare_scene({body("ball", fine_ball(30))});
+  scene.floor = true;
+  const Image image = r.draw(scene, *camera_by_name("0,-300,90,0,0,0", Box3(), 1));
+  EXPECT_GT(pixel(image, 10, 10)[0], 150);
+  EXPECT_GT(pixel(image, 10, 390)[0], 150);
+  const auto ball = pixel(image, 200, 190);
+  EXPECT_GT(ball[0], 60);
+  // Its shadow on the floor.
+  int darkest = 255;
+  for (int y = 250; y < 330; ++y)
+    for (int x = 100; x < 300; ++x) darkest = std::min(darkest, pixel(image, x, y)[0]);
+  EXPECT_LT(darkest + 15, pixel(image, 10, 300)[0]);
+}
+
 TEST(Picture, MarksAContactEvenBehindABody) {
   Renderer r = renderer(side, side);
   Scene scene = bare_scene({body("box", block(100, 100, 100))});
