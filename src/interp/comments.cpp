@@ -96,6 +96,10 @@ bool read_format(std::string_view text, std::size_t& at, int& decimals) {
     at += 4;
     return true;
   }
+  if (rest.size() >= 2 && rest[1] == '.') {  // the control prints the rest without the %
+    ++at;
+    return true;
+  }
   return false;
 }
 
@@ -141,6 +145,12 @@ void comment_action(std::string_view text, Place place, BlockRun& run) {
     return run.emit_now(canon::LogFile{LogKind::probe_open, std::string(trimmed(*rest))});
   if (const auto rest = behind(text, "probeclose"))
     return run.emit_now(canon::LogFile{LogKind::probe_close, {}});
+  if (behind(text, "py,") || behind(text, "pyrun,")) {
+    canon::UserCode code;
+    code.code = -1;
+    code.remap = "the comment (PY, …)";
+    return run.emit(std::move(code));
+  }
   if (text.empty()) return;
   text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
   run.emit(canon::Message{Kind::comment, std::string(text)});

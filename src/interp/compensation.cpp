@@ -61,6 +61,14 @@ Compensator::Point Compensator::nose_shift(const ModalState& state) const {
   return shift;
 }
 
+// While a nose runs beside the contour the control tells where its centre is, not its tip.
+AxisValues Compensator::told_position(const ModalState& state) const {
+  if (state.comp.side == CompSide::off || !state.comp.entered) return state.tip;
+  const Point shift = nose_shift(state);
+  if (shift.a == 0 && shift.b == 0) return state.tip;
+  return tip_of(state, state.tip, point_of(state, state.tip) - 2 * shift);
+}
+
 // The tip of a tool whose (nose's) centre is there; all else as in `like`.
 AxisValues Compensator::tip_of(const ModalState& state, const AxisValues& like,
                                Point centre) const {
@@ -126,8 +134,9 @@ void Compensator::leave(BlockRun& run, const PlannedMove& planned) {
     run.warning("comp_exit_short", run.whole(),
                 "the move that leaves radius compensation is shorter than the tool's diameter (" +
                     mm(2 * state.comp.radius) + "); it may cut into the contour");
+  if (const auto rate = pace(planned, canon::straight_way(state.comp.left_at, planned.end)))
+    run.emit(*rate);
   state.comp = CompState{};
-  if (const auto rate = pace(planned, canon::straight_way(state.tip, planned.end))) run.emit(*rate);
   state.tip = planned.end;
   if (planned.kind == PlannedMove::Kind::rapid)
     run.emit(canon::Rapid{planned.end});
@@ -213,6 +222,15 @@ std::optional<Compensator::Path> Compensator::entry_path(BlockRun& run, const Pl
   if (is_fanuc(run)) {
     run.error("comp_entry", run.whole(),
               "radius compensation begins with a straight move, not with an arc");
+    return std::nullopt;
+  }
+  const Point nose = nose_shift(state);
+  if (nose.a != 0 || nose.b != 0) {
+    // The control goes straight to the arc's end, and round a full circle there or not at all.
+    run.error("comp_entry", run.whole(),
+              "radius compensation of a lathe tool with orientation " +
+                  std::to_string(state.comp.orientation) +
+                  " begins with a straight move, not with an arc");
     return std::nullopt;
   }
   AxisValues middle = planned.end;

@@ -36,6 +36,8 @@ class Compensator {
   void finish(BlockRun& run);
   /// A held move that has no room, which has been told, makes no further errors. False without one.
   bool excuse_held();
+  /// What parameters tell of the position.
+  AxisValues told_position(const ModalState& state) const;
   /// Forgets everything: G41 or G42 was given.
   void start();
 

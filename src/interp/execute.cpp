@@ -19,15 +19,44 @@ std::uint32_t letters_of(const char* words) {
   return letters;
 }
 
+char to_lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
+
+// Whether a line begins, behind / and N, with the code written just so: `M98`, not `M098`.
+bool begins_with(std::string_view line, const std::string& code) {
+  std::size_t at = 0;
+  const auto next = [&] {
+    while (at < line.size() && (line[at] == ' ' || line[at] == '\t')) ++at;
+    return at < line.size() ? to_lower(line[at]) : '\0';
+  };
+  const auto is_number = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
+  if (next() == '/') ++at;
+  if (next() == 'n') {
+    ++at;
+    while (is_number(next())) ++at;
+  }
+  for (const char c : code) {
+    if (next() != to_lower(c)) return false;
+    ++at;
+  }
+  return !is_number(next());
+}
+
 bool is_cycle(const CodeRule& rule) {
   return rule.handler == canned_cycle || rule.handler == fanuc_cycle;
+}
+
+// G5 and G5.1 act on their line only: the motion code before them, a cycle too, stays in force.
+bool is_modal_motion(const CodeRule& rule) {
+  return rule.group == ModalGroup::motion && rule.handler != cubic_spline &&
+         rule.handler != quadratic_spline;
 }
 
 }  // namespace
 
 void BlockExecutor::execute(std::string_view line) {
   if (!evaluate() || !settings()) return;
-  if (block_.comment) {
+  const CodeRule* flow = code_of_flow();
+  if (block_.comment && !flow) {
     const Comment& comment = *block_.comment;
     comment_action(line.substr(comment.text_begin, comment.text_length), comment.place, run_);
     if (!run_.ok()) return;
@@ -35,7 +64,39 @@ void BlockExecutor::execute(std::string_view line) {
   if (block_.words.empty()) return;
   if (run_.state.data_setting && !ends_data()) return;
   if (!collect() || !check_axes() || !find_motion() || !check_words()) return;
+  if (flow && !stands_alone(*flow, line)) return;
   perform_from(0);
+}
+
+// M98, and M99 in its sub, are O-words in other clothes: a comment beside them does nothing, and
+// the control refuses or passes over what else there is.
+const CodeRule* BlockExecutor::code_of_flow() const {
+  if (!(block_.letters & bit('M'))) return nullptr;
+  for (const Word& word : block_.words) {
+    if (!word.rule) continue;
+    if (word.rule->handler == call_fanuc) return word.rule;
+    if (word.rule->handler == return_fanuc && run_.level == Level::fanuc_sub) return word.rule;
+  }
+  return nullptr;
+}
+
+bool BlockExecutor::stands_alone(const CodeRule& rule, std::string_view line) {
+  const std::uint32_t own = letters_of(rule.words);
+  const auto belongs = [&](const Word& word) {
+    return word.rule == &rule || (own & bit(word.letter));
+  };
+  const auto other = std::find_if(block_.words.begin(), block_.words.end(),
+                                  [&](const Word& w) { return !belongs(w); });
+  std::optional<Place> place;
+  if (other != block_.words.end()) place = other->place;
+  if (!block_.settings.empty()) place = block_.settings.front().place;
+  if (!place && !begins_with(line, name_of(rule))) place = run_.place(rule);
+  if (place)
+    run_.error("flow_syntax", *place,
+               name_of(rule) + " must be the first of its line, before comments too" +
+                   (own ? ", and only P and L may stand behind it" : ", and nothing may follow") +
+                   "; put the rest on another line");
+  return !place;
 }
 
 void BlockExecutor::resume(const SuspendedBlock& rest) {
@@ -383,7 +444,7 @@ void BlockExecutor::perform(const BlockItem& item) {
                "only control points (G5.2 lines) may stand between G5.2 and G5.3");
     return;
   }
-  if (rule.group == ModalGroup::motion && !is_cycle(rule)) leave_cycle(rule);
+  if (is_modal_motion(rule) && !is_cycle(rule)) leave_cycle(rule);
   if (rule.group == ModalGroup::motion && mode_only_) return after_motion(rule);
   rule.handler(rule, run_);
   if (run_.ok() && rule.group == ModalGroup::motion) after_motion(rule);
@@ -409,7 +470,10 @@ bool BlockExecutor::move(const CodeRule& rule) {
 }
 
 void BlockExecutor::after_motion(const CodeRule& rule) {
-  run_.state.motion = rule.code;
+  if (is_modal_motion(rule))
+    run_.state.motion = rule.code;
+  else
+    run_.state.cycle.interrupted = true;
   if (rule.code != 50) run_.state.spline.valid = false;
 }
 

@@ -172,9 +172,14 @@ bool Machine::parameter(const Instruction& at) {
                     "parameter_range");
       return read(at, *index);
     }
-    case Op::exists:
-      top() = 1;
+    case Op::exists: {
+      const auto index = as_integer(top());
+      if (!index)
+        return fail(at, "a parameter's number must be an integer, this is " + shortest(top()),
+                    "parameter_range");
+      top() = Parameters::in_range(*index) ? 1 : 0;
       return true;
+    }
     case Op::exists_named:
       push(parameters.exists(at.id) ? 1 : 0);
       return true;

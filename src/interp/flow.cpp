@@ -245,22 +245,31 @@ int FlowIndex::find_sub(std::string_view label) {
   return -1;
 }
 
-int FlowIndex::find_fanuc(std::string_view label, std::uint64_t after) {
-  const std::size_t behind = entries.lower_bound(
-      after, [](const FlowEntry& entry, std::uint64_t b) { return entry.begin <= b; });
-  const SubName wanted{hash_of(label), 1, static_cast<std::int32_t>(behind)};
-  const std::size_t first = names_.lower_bound(wanted, [](const SubName& a, const SubName& b) {
+// In the order of the file.
+template <class Fits>
+int FlowIndex::first_fanuc(std::string_view label, std::int32_t from, const Fits& fits) {
+  const SubName wanted{hash_of(label), 1, from};
+  std::size_t i = names_.lower_bound(wanted, [](const SubName& a, const SubName& b) {
     return std::tie(a.fanuc, a.hash, a.entry) < std::tie(b.fanuc, b.hash, b.entry);
   });
-  const auto fits = [&](std::size_t i) {
+  for (; i < names_.size(); ++i) {
     const SubName name = names_[i];
-    return name.fanuc == 1 && name.hash == wanted.hash;
-  };
-  for (std::size_t i = first; i < names_.size() && fits(i); ++i)
-    if (has_label(names_[i].entry, label)) return names_[i].entry;
-  for (std::size_t i = first; i-- > 0 && fits(i);)
-    if (has_label(names_[i].entry, label)) return names_[i].entry;
+    if (name.fanuc != 1 || name.hash != wanted.hash) break;
+    if (fits(entries[static_cast<std::size_t>(name.entry)]) && has_label(name.entry, label))
+      return name.entry;
+  }
   return -1;
+}
+
+int FlowIndex::find_fanuc(std::string_view label, std::uint64_t from) {
+  const std::size_t first = entries.lower_bound(
+      from, [](const FlowEntry& entry, std::uint64_t b) { return entry.begin < b; });
+  return first_fanuc(label, static_cast<std::int32_t>(first),
+                     [](const FlowEntry&) { return true; });
+}
+
+int FlowIndex::find_called_fanuc(std::string_view label) {
+  return first_fanuc(label, 0, [](const FlowEntry& entry) { return entry.passed; });
 }
 
 // ---- what belongs together -------------------------------------------------------------------
@@ -294,6 +303,7 @@ void FlowIndex::connect(int at, const std::string& label) {
       sub_ = -1;
       return;
     case Keyword::fanuc_sub:
+      if (sub_ < 0) ++scope_;
       return name(at, label, true);
     case Keyword::if_:
     case Keyword::do_:

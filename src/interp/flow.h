@@ -33,7 +33,7 @@ struct FlowEntry {
   Keyword keyword = Keyword::none;
   FlowFault fault = FlowFault::none;  ///< told when the program gets there
   bool called_ahead = false;          ///< a sub that was called before its definition was passed
-  bool passed = false;                ///< a sub whose definition was passed
+  bool passed = false;                ///< a sub whose definition was passed, or that was called
 };
 
 /// What the line of an entry says.
@@ -81,8 +81,10 @@ class FlowIndex {
   int find_sub(std::string_view label);
   /// A sub whose label is an expression has this number from now on. False when there are too many.
   bool name_sub(int at, const std::string& label);
-  /// Fanuc-style `OLABEL` behind `after`, else anywhere, or -1.
-  int find_fanuc(std::string_view label, std::uint64_t after);
+  /// The first Fanuc-style `OLABEL` that stands there or further down, or -1.
+  int find_fanuc(std::string_view label, std::uint64_t from);
+  /// The Fanuc-style `OLABEL` that was called before, or -1.
+  int find_called_fanuc(std::string_view label);
 
   // ---- macro B: programs, DO and END are entries; a DO has the DO around it as `next`
   /// The header `O` number, or -1.
@@ -141,6 +143,8 @@ class FlowIndex {
   void find_reused_labels();
   void name(int at, const std::string& label, bool fanuc);
   bool has_label(int at, std::string_view label) { return line_of(at).label == label; }
+  template <class Fits>
+  int first_fanuc(std::string_view label, std::int32_t from, const Fits& fits);
   std::optional<NumberedBlock> search(std::int64_t number, std::uint64_t from);
 
   const SourceText& source_;

@@ -203,6 +203,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void call_fanuc(const FlowRequest& request);
   bool enter_sub(ProgramFile& file, int at, const std::vector<double>* arguments, std::string what);
   void pass_sub(Block& block, int at);
+  bool is_first_definition(const Block& block, int at);
   void pass_value(int end);
   void leave_sub(Block& block);
   void return_fanuc();
@@ -213,7 +214,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void run_startup_line();
   ProgramFile* find_known_sub(const std::string& name);
   ProgramFile* find_sub(const std::string& name, const Block& block, Place place);
-  ProgramFile* open_sub_file(const std::string& name, Place place, bool& found);
+  ProgramFile* find_fanuc_sub(const std::string& label, Place place, int& at);
+  ProgramFile* open_sub_file(const std::string& name, Place place, bool fanuc, bool& found);
   std::vector<std::string> sub_folders() const;
   bool push_frame(Frame frame, std::string what, const std::vector<double>* arguments = nullptr);
   bool count_file(ProgramFile& file, Place place);
@@ -321,6 +323,8 @@ class BlockExecutor {
   bool evaluate_macro_b();
   bool settings();
   bool macro_settings();
+  const CodeRule* code_of_flow() const;
+  bool stands_alone(const CodeRule& rule, std::string_view line);
   bool collect();
   bool find_motion();
   bool check_words();

@@ -63,11 +63,12 @@ double Interpreter::Impl::predefined(int which) const {
   constexpr std::array<double, 6> planes = {170, 180, 190, 171, 181, 191};
   if (which >= 30 && which < 39) {
     const Axis axis = all_axes[static_cast<std::size_t>(which - 30)];
-    return to_program(s, s.tip)[axis] / unit_of(axis, s.unit_mm());
+    return to_program(s, session_.compensator.told_position(s))[axis] / unit_of(axis, s.unit_mm());
   }
   if (which >= 39 && which < 48) {
     const Axis axis = all_axes[static_cast<std::size_t>(which - 39)];
-    return (s.tip[axis] + s.length_offset[axis]) / unit_of(axis, s.unit_mm());
+    return (session_.compensator.told_position(s)[axis] + s.length_offset[axis]) /
+           unit_of(axis, s.unit_mm());
   }
   const tool::Tool* loaded = tools_.find(s.tool);
   const tool::Tool* selected = tools_.find(s.selected_tool);

@@ -37,6 +37,7 @@ struct CycleState {
   bool has_r = false, has_z = false, has_p = false, has_q = false, has_d = false;
   bool has_i = false, has_j = false, has_k = false;
   double i = 0, j = 0, k = 0;  ///< G87; Fanuc: shift of G76 and G87. Haas: pecks of G73 and G83
+  bool interrupted = false;    ///< by G5, G5.1: the initial level is taken anew
 };
 
 /// What the cycles of Fanuc-like lathes keep from line to line; mm, X as radius.
@@ -76,6 +77,7 @@ struct CompState {
   bool entered = false;             ///< the entry move was made
   bool leaving = false;             ///< G40 was given, the next move must be straight
   AxisValues programmed;            ///< where the tip would be without compensation, once entered
+  AxisValues left_at;               ///< where the tip was when G40 was given
 };
 
 struct ModalState {

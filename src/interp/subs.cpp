@@ -57,6 +57,7 @@ void Interpreter::Impl::pass_sub(Block& block, int at) {
     report("sub_reached", block.oword.place,
            "the main program runs into a sub that it has called from before; end the main program "
            "with M2 before this line");
+  if (!is_first_definition(block, at)) return jump_behind(sub.partner);
   sub.passed = true;
   if (block.oword.computed)
     if (const auto label = label_of(block); label && !flow().name_sub(at, *label)) {
@@ -78,6 +79,20 @@ void Interpreter::Impl::pass_sub(Block& block, int at) {
     if (ends && flow().line_of(inside).label == own) pass_value(inside);
   }
   jump_behind(sub.partner);
+}
+
+// Of two subs of one name the control refuses the one that it comes past as the second.
+bool Interpreter::Impl::is_first_definition(const Block& block, int at) {
+  if (block.oword.computed) return true;
+  ProgramFile* known = find_known_sub(block.oword.label);
+  if (!known) return true;
+  const int first = known->flow->find_sub(block.oword.label);
+  if (known == frames_.back().file && first == at) return true;
+  report("label_reused", block.oword.place,
+         "there is a sub " + written_label(printable(block.oword.label)) + " already, in line " +
+             std::to_string(known->flow->entries[static_cast<std::size_t>(first)].line) + " of '" +
+             printable(known->text->name()) + "'; give every sub a label of its own");
+  return false;
 }
 
 // The control reads the ends of a sub while it passes the definition: their values count as
@@ -150,7 +165,7 @@ ProgramFile* Interpreter::Impl::find_sub(const std::string& name, const Block& b
       ahead >= 0 && here->flow->entries[static_cast<std::size_t>(ahead)].begin > block.begin;
   if (is_safe_name(name)) {
     bool found = false;
-    ProgramFile* file = open_sub_file(name, place, found);
+    ProgramFile* file = open_sub_file(name, place, false, found);
     if (found) return file;
   } else if (!is_ahead) {
     report("path_refused", place,
@@ -170,7 +185,8 @@ ProgramFile* Interpreter::Impl::find_sub(const std::string& name, const Block& b
 }
 
 // `found` tells whether there is such a file; it may lack the sub, which is an error.
-ProgramFile* Interpreter::Impl::open_sub_file(const std::string& name, Place place, bool& found) {
+ProgramFile* Interpreter::Impl::open_sub_file(const std::string& name, Place place, bool fanuc,
+                                              bool& found) {
   for (const std::string& folder : sub_folders()) {
     if (!reader_) break;
     const auto text = reader_(folder + name + ".ngc");
@@ -178,10 +194,12 @@ ProgramFile* Interpreter::Impl::open_sub_file(const std::string& name, Place pla
     found = true;
     ProgramFile& file = file_for(**text);
     if (!count_file(file, place)) return nullptr;
-    if (flow_of(file).find_sub(name) >= 0) return &file;
+    const int at = fanuc ? flow_of(file).find_fanuc(name, 0) : flow_of(file).find_sub(name);
+    if (at >= 0) return &file;
+    const std::string wanted = fanuc ? "O" + name : written_label(printable(name)) + " sub";
     report("sub_missing", place,
-           "the file '" + printable(file.text->name()) + "' has no '" +
-               written_label(printable(name)) + " sub'; the sub must have the name of its file");
+           "the file '" + printable(file.text->name()) + "' has no '" + wanted +
+               "'; the sub must have the name of its file");
     return nullptr;
   }
   return nullptr;
@@ -296,22 +314,45 @@ void Interpreter::Impl::return_from_call() {
   if (rest && !done_) resume_line(std::move(rest));
 }
 
+// As find_sub: one that was called before, else the one in a file of its name, else the next one
+// further down in this text.
+ProgramFile* Interpreter::Impl::find_fanuc_sub(const std::string& label, Place place, int& at) {
+  std::vector<ProgramFile*> files = {frames_.back().file, frames_.front().file};
+  files.insert(files.end(), opened_order_.begin(), opened_order_.end());
+  for (ProgramFile* file : files)
+    if ((at = flow_of(*file).find_called_fanuc(label)) >= 0) return file;
+  ProgramFile* here = frames_.back().file;
+  const bool other_style = find_known_sub(label) || flow_of(*here).find_sub(label) >= 0;
+  if (!find_known_sub(label)) {
+    bool found = false;
+    ProgramFile* file = open_sub_file(label, place, true, found);
+    if (file) at = file->flow->find_fanuc(label, 0);
+    if (found) return file;
+    if ((at = here->flow->find_fanuc(label, block_->begin + 1)) >= 0) return here;
+  }
+  if (other_style)
+    report("flow_syntax", place, "M98 can't call o" + label + " sub; use o" + label + " call");
+  else if (here->flow->find_fanuc(label, 0) >= 0)
+    report("sub_missing", place,
+           "O" + label +
+               " stands above this line and was not called from further up; the control "
+               "looks for it below only");
+  else
+    report("sub_missing", place,
+           "there is no sub O" + label + " below, which begins with O" + label +
+               " and ends with M99, and no file '" + label +
+               ".ngc' in the program's folder or the sub path");
+  return nullptr;
+}
+
 void Interpreter::Impl::call_fanuc(const FlowRequest& request) {
   const std::string label = std::to_string(request.label);
-  ProgramFile& file = *frames_.back().file;
-  FlowIndex& flow = flow_of(file);
-  const int at = flow.find_fanuc(label, block_->begin);
   const Place place = block_->find('P') ? block_->find('P')->place : Place{0, block_->length};
-  if (at < 0) {
-    if (flow.find_sub(label) >= 0)
-      return report("flow_syntax", place,
-                    "M98 can't call o" + label + " sub; use o" + label + " call");
-    return report("sub_missing", place,
-                  "there is no sub O" + label + " in this program; it begins with O" + label +
-                      " and ends with M99");
-  }
-  if (request.repeats == 0) return;
-  if (!enter_sub(file, at, nullptr, "M98 P" + label)) return;
+  int at = -1;
+  ProgramFile* file = find_fanuc_sub(label, place, at);
+  if (!file || request.repeats == 0) return;
+  file->flow->entries[static_cast<std::size_t>(at)].passed = true;
+  if (!enter_sub(*file, at, nullptr, "M98 P" + label)) return;
   frames_.back().fanuc = true;
   frames_.back().repeats = request.repeats;
 }

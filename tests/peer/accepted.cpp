@@ -23,6 +23,7 @@ constexpr Rule refused_here_only[] = {
     {"too short between its corners", "compensation: short move"},
     {"the move before it is too short", "compensation: short move"},
     {"no arc leads from here to the start", "compensation: entry by an arc that comes backwards"},
+    {"begins with a straight move, not with an arc", "compensation: entry by an arc with a nose"},
     {"splines can't be used while radius compensation", "compensation: splines"},
     {"G76 can't be used while radius compensation", "compensation: G76"},
     {"G17.1 can't be used while radius compensation", "compensation: G17.1"},

@@ -77,8 +77,10 @@ void ProgramMaker::contour() {
                 "G10 L2 P3 X1", "M50 P1", "G7"}));
   }
   add("G40");
-  if (one_in(6)) add("(left)");
-  add(pick({"G1", "G0"}) + " X-40 Y-30" + feed());
+  if (one_in(6))
+    add(pick({"(left)", "(DEBUG,#5420 #5421 #<_x> #<_abs_y>)", "G92 Y3", "G92.1", "G28.1"}));
+  add(pick({"G1", "G0", "G53 G0"}) + " X-40 Y-30" + feed());
+  if (one_in(4)) add("G92.1");
   if (inverse_time_) add("G94 F" + std::to_string(50 + below(200)));
   inverse_time_ = false;
   add("G21 G8");
@@ -103,6 +105,7 @@ void ProgramMaker::lathe_contour() {
       add(pick({"G2", "G3"}) + point + " R" + pick({"20", "30", "15"}));
     else
       add("G1" + point);
+    if (one_in(8)) add(pick({"(DEBUG,#5420 #5422)", "(DEBUG,#<_x> #<_z> #<_abs_x>)", "#7=#<_z>"}));
   }
   add("G40");
   add("G0 X40 Z20");

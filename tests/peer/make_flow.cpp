@@ -154,16 +154,20 @@ void ProgramMaker::fanuc_sub() {
   const std::string number = std::to_string(1000 + ++labels_);
   std::string body = "O" + number + "\n  #1=[#1+1]\n  G91 G0 X1 Y#1\n";
   if (one_in(4)) body += "  (DEBUG,#1 #<_call_level>)\n";
+  // Each sub has labels of its own.
+  if (one_in(4)) body += "  o1 if [#1 GT 2]\n    G0 Z2\n  o1 else\n    M8\n  o1 endif\n";
   if (one_in(4)) {
     const std::string inner = std::to_string(1000 + ++labels_);
-    body += "  M98 P" + inner + " L2\n";
+    body += "  M98 P" + inner + " L2" + pick({"", " (MSG,inner)"}) + "\n";
     body += "M99\nO" + inner + "\n  G0 Z1\n  M99\n";
   } else {
     body += "  M99\n";
   }
   subs_ += body;
   const std::string repeats = pick({"", " L2", " L3", " L1"});
-  add("M98 P" + number + repeats);
+  add((one_in(12) ? pick({"N5 ", "G4 P1 ", "(c)"}) : "") + "M98 P" + number + repeats +
+      (one_in(8) ? " (DEBUG,#1)" : ""));
+  if (one_in(6)) add("M98 P" + number);
   add("G90");
 }
 

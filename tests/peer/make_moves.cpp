@@ -98,6 +98,9 @@ void ProgramMaker::spline() {
     case 0:
       add("G5 X" + decimal(1, 9) + " Y" + decimal(1, 9) + " I1 J2 P-1 Q2" + feed());
       if (one_in(2)) add("G5 X" + decimal(1, 9) + " Y" + decimal(1, 9) + " P-1 Q2" + feed());
+      if (one_in(3)) add(pick({"X", "X2 Y", "G91 X"}) + decimal(1, 9));
+      if (one_in(5)) add("(DEBUG,#<_motion_mode>)");
+      if (one_in(3)) add("G90");
       break;
     case 1:
       add("G5.1 X" + decimal(1, 9) + " Y" + decimal(1, 9) + " I1 J2" + feed());
@@ -108,9 +111,10 @@ void ProgramMaker::spline() {
       if (inverse_time_) return;
       const bool incremental = one_in(4);
       add((incremental ? "G91 " : "") + ("G5.2 X" + decimal(1, 4)) + " Y" + decimal(1, 4) + " P" +
-          pick({"1", "2", "0.5"}) + pick({"", " L3", " L4", " L2"}));
+          pick({"1", "2", "0.5"}) + pick({"", " L3", " L4", " L2", " L1"}));
       for (int i = 2 + below(4); i > 0; --i)
-        add("X" + decimal(-9, 9) + " Y" + decimal(-9, 9) + " P" + pick({"1", "2", "0.5"}));
+        add("X" + decimal(-9, 9) + " Y" + decimal(-9, 9) + " P" + pick({"1", "2", "0.5"}) +
+            (one_in(8) ? pick({" L3", " L4", " L5"}) : ""));
       add("G5.3");
       if (incremental) add("G90");
     }

@@ -271,6 +271,10 @@ void ProgramMaker::hostile() {
             "#1=[[1]",
             "#1=[1]]",
             "#1=exists[1]",
+            "#1=exists[#0]",
+            "#1=exists[#5602] #2=exists[#5601]",
+            "#1=exists[#2.5]",
+            "(DEBUG,%.1x#1 %.f#2 %.#3)",
             "#1=exists[#1]",
             "#<a b = 3",
 

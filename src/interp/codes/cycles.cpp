@@ -116,7 +116,7 @@ bool Cycle::read_words() {
   CycleState& cycle = state_.cycle;
   const bool same = cycle.code == rule_.code;
   if (!same) {
-    const bool begins = cycle.code == 0;
+    const bool begins = cycle.code == 0 || cycle.interrupted;
     const double initial = begins ? c_ : cycle.initial;
     const canon::Plane plane = begins ? state_.plane : cycle.plane;
     cycle = CycleState{};
@@ -124,6 +124,9 @@ bool Cycle::read_words() {
     cycle.plane = plane;
     cycle.unit = state_.unit;
     cycle.code = rule_.code;
+  } else if (cycle.interrupted) {
+    cycle.initial = c_;
+    cycle.interrupted = false;
   }
   warn_of_changed_modes(same);
   const char normal = letter(axes_.normal);

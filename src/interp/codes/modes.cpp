@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "interp/codes/codes.h"
+#include "interp/dialect.h"
 
 namespace aircut::interp {
 namespace {
@@ -153,7 +154,16 @@ void radius_comp_off(const CodeRule&, BlockRun& run) {
   CompState& comp = run.state.comp;
   run.session.compensator.finish(run);
   if (!run.ok()) return;
-  if (comp.side != CompSide::off) comp.leaving = comp.entered;
+  if (comp.side != CompSide::off && comp.entered) {
+    comp.leaving = true;
+    comp.left_at = run.state.tip;
+    // To all codes in front of the move that leaves the contour the tool is at the programmed
+    // point already.
+    if (!run.session.table.dialect().macro_b) {
+      run.state.tip = comp.programmed;
+      comp.entered = false;
+    }
+  }
   comp.side = CompSide::off;
 }
 

@@ -241,6 +241,7 @@ void thread(const CodeRule& rule, BlockRun& run) {
   run.emit(std::move(move));
   run.state.tip = *end;
   if (run.state.comp.entered) run.state.comp.programmed = *end;
+  run.state.comp.leaving = run.state.comp.entered;
 }
 
 // The position after rigid tapping is where it began, but for rotary axes.
@@ -265,6 +266,7 @@ void rigid_tap(const CodeRule& rule, BlockRun& run) {
   run.emit(std::move(move));
   for (const Axis axis : all_axes)  // only the linear axes come back, as the control sees it
     if (is_rotary(axis)) run.state.tip[axis] = (*end)[axis];
+  run.state.comp.leaving = run.state.comp.entered;
 }
 
 void probe(const CodeRule& rule, BlockRun& run) {

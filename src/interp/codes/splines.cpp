@@ -90,6 +90,18 @@ void quadratic_spline(const CodeRule& rule, BlockRun& run) {
   run.state.tip = *end;
 }
 
+namespace {
+
+// L may stand in any of the lines: the largest one counts, and 3 at least.
+bool nurbs_order(BlockRun& run) {
+  if (!run.has('L')) return true;
+  const auto order = run.integer('L', 0, 20, "spline_error");
+  if (order) run.state.nurbs_order = std::max(run.state.nurbs_order, *order);
+  return order.has_value();
+}
+
+}  // namespace
+
 // Collects control points. The current point is the first one and stays it until G5.3: with G91 all
 // points are counted from there.
 void nurbs_point(const CodeRule& rule, BlockRun& run) {
@@ -102,17 +114,15 @@ void nurbs_point(const CodeRule& rule, BlockRun& run) {
   if (state.nurbs_points == 0) {
     points.clear();
     state.nurbs_order = 3;
-    if (run.has('L')) {
-      const auto order = run.integer('L', 2, 20, "spline_error");
-      if (!order) return;
-      state.nurbs_order = *order;
-    }
+    if (!nurbs_order(run)) return;
     points.push_back(at(state.tip, weight));
     state.nurbs_points = 1;
     if (!run.has('X') && !run.has('Y')) return;
   } else if (!run.has('P')) {
     return run.error("spline_error", rule,
                      "every control point of a NURBS needs P: its weight above 0");
+  } else if (!nurbs_order(run)) {
+    return;
   }
   if (!run.has('X') || !run.has('Y'))
     return run.error("axis_word_missing", rule, "a control point needs both X and Y");

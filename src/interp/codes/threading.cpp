@@ -157,6 +157,7 @@ void Thread::pass(double depth) {
   // The control switches it on even when it was off before.
   run_.emit(canon::Override{canon::Override::Kind::feed, true, 0});
   state_.thread_override = true;
+  state_.comp.leaving = state_.comp.entered;
 }
 
 void Thread::rapid(double x, double z, const char* what) {
