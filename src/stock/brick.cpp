@@ -14,7 +14,7 @@ NormalCode encode_normal(const Vec3& n) {
     v = (1 - std::abs(u)) * (v < 0 ? -1 : 1);
     u = fold_u;
   }
-  const auto code = [](double x) { return static_cast<unsigned>(std::lround(x * 127) + 128); };
+  const auto code = [](double x) { return static_cast<unsigned>(x * 127 + 128.5); };
   return static_cast<NormalCode>(code(u) << 8 | code(v));
 }
 

@@ -3,6 +3,7 @@
 // builds give the same bytes, because only +, −, ×, ÷, √ and comparisons are used.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -52,6 +53,48 @@ struct Chords {
   alignas(64) std::int32_t normal_b[cells];
 };
 
+/// A band of a sweep in any direction and the rays along one axis: what all of them share
+/// (tilted.cpp has the formulas). Over the way τ along the ray and the share t of the path, F = A
+/// τ²
+/// + 2 B τ t + C t² + 2 E τ + 2 G t + H.
+struct TiltedBand {
+  double z0, z1, f;
+  bool ball;
+  bool along_ray;                 ///< on the strip's borders τ = p + q t, else t = p + q τ
+  double zu, zd;                  ///< the axis · ray's direction, · travel
+  double growth, radius, ru, rd;  ///< the radius is radius + growth z + ru τ − rd t
+  double A, B, C, per_A, per_C;   ///< with their inverses, 0 where there is none
+  double hull, per_hull;          ///< of τ² where ∂F/∂t = 0
+  double q, border, per_border;   ///< on the strip's borders; 0: there are none
+};
+
+/// The 16 rays of a row as a sweep in any direction sees them. Lane i begins at rel + i pitch l,
+/// seen from the path's start (l: the direction across the row); mm. Numbers with _l belong to l,
+/// those with _u to the rays' direction.
+struct TiltedRow {
+  double pitch, quantum;
+  double u, across, square;  ///< rel · rays' direction, · l, ²
+  double z, z_l, z_u;        ///< · axis
+  double d, d_l;             ///< · travel
+  double way, way_l, way_u;  ///< · way: the travel seen along the axis
+  double way2, per_way2;     ///< its square; 1 over it, 0 where there is none
+  double low, high;          ///< heights of the sweep over its start
+  double radius, seen;       ///< the cutter's; how long the rays' direction is, seen along the axis
+};
+
+/// What an end of a chord lies on: of a band its side, one of its flat faces, or their edge.
+enum class TiltedPlace : std::uint8_t { side, low_face, high_face, low_edge, high_edge };
+
+/// Both ends of the rays' chords: τ, t there, and band * 8 + place. Without a chord τ of the first
+/// is infinite.
+struct TiltedEnds {
+  struct End {
+    alignas(64) double tau[cells];
+    alignas(64) double t[cells];
+    alignas(64) std::int64_t place[cells];
+  } a, b;
+};
+
 /// Lanes whose ends moved, as bits.
 struct RowChange {
   std::uint32_t low = 0, high = 0;            ///< the lower (upper) end moved
@@ -70,6 +113,10 @@ struct Kernels {
   /// X (Y) rays of the row at height k, lanes along Y (X).
   bool (*level)(const LocalSweep&, Family, int row, const std::uint16_t* lo,
                 const std::uint16_t* hi, Chords&);
+  /// Ends of the chords of a row's rays; lanes of which [lo, hi) proves that they are not touched
+  /// may have none. Returns the lanes that were looked at as bits. Null: all of them.
+  std::uint32_t (*tilted)(const TiltedBand* bands, std::size_t count, const TiltedRow&,
+                          const std::uint16_t* lo, const std::uint16_t* hi, TiltedEnds&);
   /// Takes the chords from the row's intervals.
   void (*take)(std::uint16_t* lo, std::uint16_t* hi, const Chords&, RowChange&);
 };

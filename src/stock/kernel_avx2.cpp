@@ -11,10 +11,12 @@ namespace {
 #include "stock/lanes.h"
 //
 #include "stock/kernel_rows.h"
+//
+#include "stock/kernel_tilted.h"
 }  // namespace
 
 const Kernels* avx2_kernels() {
-  static constexpr Kernels table = {upright, level, take};
+  static constexpr Kernels table = {upright, level, tilted, take};
   return __builtin_cpu_supports("avx2") ? &table : nullptr;
 }
 

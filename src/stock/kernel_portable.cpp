@@ -10,10 +10,12 @@ namespace {
 #include "stock/lanes.h"
 //
 #include "stock/kernel_rows.h"
+//
+#include "stock/kernel_tilted.h"
 }  // namespace
 
 const Kernels& portable_kernels() {
-  static constexpr Kernels table = {upright, level, take};
+  static constexpr Kernels table = {upright, level, tilted, take};
   return table;
 }
 

@@ -47,41 +47,43 @@ void append_cones(const Band& arc, std::vector<Band>& out) {
   }
 }
 
-/// Real roots of a x² + 2 b x + c, ascending or not; the number of them.
-int roots(double a, double b, double c, double out[2]) {
-  if (std::abs(a) < 1e-14) {
-    if (std::abs(b) < 1e-14) return 0;
-    out[0] = -c / (2 * b);
-    return 1;
+/// What a band is to all rays along one axis.
+TiltedBand to_rays(const Band& band, const Vec3& axis, const Vec3& travel, int ray_axis) {
+  TiltedBand out{};
+  out.z0 = band.z0;
+  out.z1 = band.z1;
+  out.f = band.f;
+  out.ball = band.arc > 0;
+  out.zu = axis[ray_axis];
+  out.zd = axis.dot(travel);
+  out.growth = out.ball ? 0 : (band.r1 - band.r0) / (band.z1 - band.z0);
+  out.radius = out.ball ? band.arc : band.r0 - out.growth * band.z0;
+  out.ru = out.growth * out.zu;
+  out.rd = out.growth * out.zd;
+  // Seen from the axis, or from the sphere's middle.
+  const double across = out.ball ? 0 : 1;
+  out.A = 1 - across * out.zu * out.zu - out.ru * out.ru;
+  out.B = out.ru * out.rd - (travel[ray_axis] - across * out.zu * out.zd);
+  out.C = travel.squaredNorm() - across * out.zd * out.zd - out.rd * out.rd;
+  out.per_A = 1 / out.A;
+  if (std::abs(out.C) > 1e-14) {
+    out.per_C = 1 / out.C;
+    out.hull = out.A - out.B * out.B * out.per_C;
+    out.per_hull = 1 / out.hull;
   }
-  const double q = b * b - a * c;
-  if (q < 0) return 0;
-  const double s = b < 0 ? std::sqrt(q) - b : -std::sqrt(q) - b;  // no cancellation
-  out[0] = s / a;
-  if (s == 0) return 1;
-  out[1] = c / s;
-  return 2;
+  out.along_ray = std::abs(out.zu) > std::abs(out.zd);
+  if (out.along_ray) {
+    out.q = out.zd / out.zu;
+    out.border = (out.A * out.q + 2 * out.B) * out.q + out.C;
+  } else if (std::abs(out.zd) > 1e-12) {
+    out.q = out.zu / out.zd;
+    out.border = out.A + (2 * out.B + out.C * out.q) * out.q;
+  }
+  out.per_border = 1 / out.border;
+  return out;
 }
 
 }  // namespace
-
-/// The extent found so far, with the cutter's outward normals there.
-struct TiltedSweep::Ends {
-  double a = std::numeric_limits<double>::infinity(), b = -a;
-  Vec3 normal_a = Vec3::Zero(), normal_b = Vec3::Zero();
-
-  template <class Normal>
-  void offer(double tau, Normal normal) {
-    if (tau < a) {
-      a = tau;
-      normal_a = normal();
-    }
-    if (tau > b) {
-      b = tau;
-      normal_b = normal();
-    }
-  }
-};
 
 TiltedSweep::TiltedSweep(const Outline& outline, const Vec3& start, const Vec3& end,
                          const Vec3& axis)
@@ -101,6 +103,13 @@ TiltedSweep::TiltedSweep(const Outline& outline, const Vec3& start, const Vec3& 
         box_.extend(Vec3(tip + z * axis_ + wide));
       }
   }
+  way_ = travel_ - axis_.dot(travel_) * axis_;
+  way2_ = way_.squaredNorm();
+  per_way2_ = way2_ > 0 ? 1 / way2_ : 0;
+  for (int axis_of_rays = 0; axis_of_rays < 3; ++axis_of_rays)
+    for (const Band& band : bands_)
+      ray_bands_[static_cast<std::size_t>(axis_of_rays)].push_back(
+          to_rays(band, axis_, travel_, axis_of_rays));
   const double tip0 = axis_.dot(start), tip1 = axis_.dot(end);
   tip_low_ = std::min(tip0, tip1);
   tip_high_ = std::max(tip0, tip1);
@@ -114,29 +123,14 @@ bool TiltedSweep::misses(const Box3& box) const {
   if (along + reach < tip_low_ + outline_->low() - margin) return true;
   if (along - reach > tip_high_ + outline_->high() + margin) return true;
   // Across it: the distance of the middle from the path, seen along the axis.
-  const auto flat = [&](const Vec3& v) { return Vec3(v - axis_.dot(v) * axis_); };
-  const Vec3 rel = flat(middle - start_), way = flat(travel_);
-  const double length2 = way.squaredNorm();
-  const double t = length2 > 0 ? std::clamp(rel.dot(way) / length2, 0.0, 1.0) : 0;
-  return (rel - t * way).norm() > outline_->radius() + half.norm() + margin;
-}
-
-// Proof that no point between two places is touched.
-bool TiltedSweep::misses(const Vec3& from, const Vec3& to) const {
-  const double a = axis_.dot(from), b = axis_.dot(to);
-  if (std::max(a, b) < tip_low_ + outline_->low() - margin) return true;
-  if (std::min(a, b) > tip_high_ + outline_->high() + margin) return true;
-  const auto flat = [&](const Vec3& v) { return Vec3(v - axis_.dot(v) * axis_); };
-  const Vec3 rel = flat((from + to) / 2 - start_), way = flat(travel_);
-  const double length2 = way.squaredNorm();
-  const double t = length2 > 0 ? std::clamp(rel.dot(way) / length2, 0.0, 1.0) : 0;
-  return (rel - t * way).norm() > outline_->radius() + flat(to - from).norm() / 2 + margin;
+  const Vec3 from = middle - start_, rel = from - axis_.dot(from) * axis_;
+  const double t = std::clamp(rel.dot(way_) * per_way2_, 0.0, 1.0);
+  const double apart = outline_->radius() + half.norm() + margin;
+  return (rel - t * way_).squaredNorm() > apart * apart;
 }
 
 bool TiltedSweep::holds(const Vec3& p) const {
-  const Vec3 way = travel_ - axis_.dot(travel_) * axis_;
-  const double length2 = way.squaredNorm();
-  const double nearest = length2 > 0 ? std::clamp((p - start_).dot(way) / length2, 0.0, 1.0) : 0;
+  const double nearest = std::clamp((p - start_).dot(way_) * per_way2_, 0.0, 1.0);
   for (const double t : {nearest, 0.0, 1.0, 0.5}) {
     const Vec3 rel = p - start_ - t * travel_;
     const double z = axis_.dot(rel);
@@ -154,106 +148,78 @@ bool TiltedSweep::takes_all(const Box3& box) const {
   return true;
 }
 
-void TiltedSweep::band_ends(const Band& band, const Vec3& origin, int ray_axis, Ends& ends) const {
-  const Vec3 u = Vec3::Unit(ray_axis), &d = travel_, rel = origin - start_;
-  const double zu = axis_[ray_axis], zd = axis_.dot(d), zc = axis_.dot(rel);
-  const bool ball = band.arc > 0;
-  const double growth = ball ? 0 : (band.r1 - band.r0) / (band.z1 - band.z0);
-  // Vectors from the axis, or from the sphere's middle.
-  const Vec3 U = ball ? u : Vec3(u - zu * axis_), D = ball ? d : Vec3(d - zd * axis_);
-  const Vec3 P = ball ? Vec3(rel - band.f * axis_) : Vec3(rel - zc * axis_);
-  const double r = ball ? band.arc : band.r0 + growth * (zc - band.z0);
-  const double ru = growth * zu, rd = growth * zd;  // the radius is r + ru τ − rd t
-  const double A = U.dot(U) - ru * ru, B = ru * rd - U.dot(D), C = D.dot(D) - rd * rd;
-  const double E = U.dot(P) - r * ru, G = r * rd - D.dot(P), H = P.dot(P) - r * r;
-
-  const auto height = [&](double tau, double t) { return zc + zu * tau - zd * t; };
-  const auto in_strip = [&](double tau, double t) {
-    const double z = height(tau, t);
-    return z >= band.z0 - slack && z <= band.z1 + slack;
-  };
-  const auto side = [&](double tau, double t) {
-    const Vec3 n = P + tau * U - t * D;
-    const double length = n.norm();
-    if (!(length > 0)) return axis_;
-    return ball ? Vec3(n / length) : Vec3((n / length - growth * axis_).normalized());
-  };
+// The cutter's outward normal at the end of a chord, of any length.
+Vec3 TiltedSweep::normal_at(const Vec3& rel, double t, std::int64_t place) const {
+  const auto on = static_cast<TiltedPlace>(place % 8);
+  if (on == TiltedPlace::low_face) return -axis_;
+  if (on == TiltedPlace::high_face) return axis_;
+  const Band& band = bands_[static_cast<std::size_t>(place / 8)];
+  const Vec3 tip = rel - t * travel_;
+  Vec3 side = tip - (band.arc > 0 ? band.f : axis_.dot(tip)) * axis_;
+  if (band.arc == 0 && band.r0 != band.r1)
+    side -= (band.r1 - band.r0) / (band.z1 - band.z0) * side.norm() * axis_;
+  if (on == TiltedPlace::side) return side;
   // On an edge of the band in the middle of the path, the normal is across the travel.
-  const auto edge = [&](double tau, double t, const Vec3& face) {
-    const Vec3 n = side(tau, t);
-    const double v1 = n.dot(d), v2 = face.dot(d);
-    if (v1 * v2 < 0) return Vec3((n * std::abs(v2) + face * std::abs(v1)).normalized());
-    return std::abs(v1) <= std::abs(v2) ? n : face;
-  };
-  double x[2];
-
-  if (std::abs(C) > 1e-14)
-    for (int i = roots(A - B * B / C, E - B * G / C, H - G * G / C, x); i-- > 0;) {
-      const double t = -(B * x[i] + G) / C;
-      if (t >= 0 && t <= 1 && in_strip(x[i], t)) ends.offer(x[i], [&] { return side(x[i], t); });
-    }
-  for (const double t : {0.0, 1.0}) {
-    for (int i = roots(A, B * t + E, C * t * t + 2 * G * t + H, x); i-- > 0;)
-      if (in_strip(x[i], t)) ends.offer(x[i], [&] { return side(x[i], t); });
-    if (std::abs(zu) > 1e-12)
-      for (const double z : {band.z0, band.z1}) {
-        const double tau = (z - zc + zd * t) / zu;
-        if (A * tau * tau + 2 * (B * t + E) * tau + C * t * t + 2 * G * t + H <= slack)
-          ends.offer(tau, [&] { return z == band.z0 ? Vec3(-axis_) : axis_; });
-      }
-  }
-  for (const double z : {band.z0, band.z1}) {
-    const Vec3 face = z == band.z0 ? Vec3(-axis_) : axis_;
-    if (std::abs(zu) > std::abs(zd)) {  // τ = p + q t on this border
-      const double p = (z - zc) / zu, q = zd / zu;
-      for (int i = roots(A * q * q + 2 * B * q + C, A * p * q + B * p + E * q + G,
-                         A * p * p + 2 * E * p + H, x);
-           i-- > 0;)
-        if (x[i] >= 0 && x[i] <= 1)
-          ends.offer(p + q * x[i], [&] { return edge(p + q * x[i], x[i], face); });
-    } else if (std::abs(zd) > 1e-12) {  // t = p + q τ
-      const double p = (zc - z) / zd, q = zu / zd;
-      for (int i = roots(A + 2 * B * q + C * q * q, B * p + C * p * q + E + G * q,
-                         C * p * p + 2 * G * p + H, x);
-           i-- > 0;) {
-        const double t = p + q * x[i];
-        if (t >= 0 && t <= 1) ends.offer(x[i], [&] { return edge(x[i], t, face); });
-      }
-    }
-  }
+  const Vec3 face = on == TiltedPlace::low_edge ? Vec3(-axis_) : axis_;
+  const double v1 = side.dot(travel_), v2 = face.dot(travel_);
+  if (v1 * v2 < 0) return side * std::abs(v2) + face * std::abs(v1);
+  return std::abs(v1) <= std::abs(v2) * side.norm() ? side : face;
 }
 
 bool TiltedSweep::chords(const Lattice& lattice, const std::array<int, 3>& brick, Family family,
                          int row, const std::uint16_t* lo, const std::uint16_t* hi,
                          Chords& out) const {
   const int axis = index_of(family), lane_axis = axis == 0 ? 1 : 0, row_axis = axis == 2 ? 1 : 2;
-  const Vec3 low = lattice.brick_size() * Vec3(brick[0], brick[1], brick[2]);
+  Vec3 rel = lattice.brick_size() * Vec3(brick[0], brick[1], brick[2]) - start_;
+  rel[lane_axis] += 0.5 * lattice.pitch;
+  rel[row_axis] += (row + 0.5) * lattice.pitch;
+  const double tip = axis_.dot(start_);
+  const TiltedRow place{.pitch = lattice.pitch,
+                        .quantum = lattice.quantum(),
+                        .u = rel[axis],
+                        .across = rel[lane_axis],
+                        .square = rel.squaredNorm(),
+                        .z = axis_.dot(rel),
+                        .z_l = axis_[lane_axis],
+                        .z_u = axis_[axis],
+                        .d = travel_.dot(rel),
+                        .d_l = travel_[lane_axis],
+                        .way = way_.dot(rel),
+                        .way_l = way_[lane_axis],
+                        .way_u = way_[axis],
+                        .way2 = way2_,
+                        .per_way2 = per_way2_,
+                        .low = tip_low_ - tip + outline_->low(),
+                        .high = tip_high_ - tip + outline_->high(),
+                        .radius = outline_->radius(),
+                        .seen = std::sqrt(std::max(1 - axis_[axis] * axis_[axis], 0.0))};
+  TiltedEnds ends;
+  const std::vector<TiltedBand>& bands = ray_bands_[static_cast<std::size_t>(axis)];
+  std::uint32_t left = kernels().tilted(bands.data(), bands.size(), place, lo, hi, ends);
+  if (left == 0) return false;
   bool touched = false;
+  const double per_quantum = 1 / place.quantum;
+  const auto quanta = [&](double mm) {
+    return static_cast<std::int32_t>(std::clamp(mm * per_quantum, 0.0, double{brick_quanta}) + 0.5);
+  };
   for (int lane = 0; lane < cells; ++lane) {
     out.a[lane] = out.b[lane] = 0;
-    if (lo && lo[lane] >= hi[lane]) continue;
-    Vec3 origin = low;
-    origin[lane_axis] += (lane + 0.5) * lattice.pitch;
-    origin[row_axis] += (row + 0.5) * lattice.pitch;
-    const double q = lattice.quantum();
-    const Vec3 along = Vec3::Unit(axis);
-    if (misses(origin + (lo ? lo[lane] : 0) * q * along,
-               origin + (hi ? hi[lane] : brick_quanta) * q * along))
-      continue;
-    Ends ends;
-    for (const Band& band : bands_) band_ends(band, origin, axis, ends);
-    const auto quanta = [&](double mm) {
-      return static_cast<std::int32_t>(
-          std::clamp(mm / lattice.quantum(), 0.0, double{brick_quanta}) + 0.5);
-    };
-    const std::int32_t a = quanta(ends.a), b = quanta(ends.b);
-    if (!(ends.a < ends.b) || a >= b) continue;
+    if ((left >> lane & 1) == 0 || !(ends.a.tau[lane] < ends.b.tau[lane])) continue;
+    const std::int32_t a = quanta(ends.a.tau[lane]), b = quanta(ends.b.tau[lane]);
+    if (a >= b) continue;
     if (lo && (a > hi[lane] || b < lo[lane])) continue;
     touched = true;
     out.a[lane] = a;
     out.b[lane] = b;
-    out.normal_a[lane] = encode_normal(-ends.normal_a);
-    out.normal_b[lane] = encode_normal(-ends.normal_b);
+    const auto direction = [&](const TiltedEnds::End& end) {
+      Vec3 at = rel;
+      at[lane_axis] += lane * lattice.pitch;
+      at[axis] += end.tau[lane];
+      return encode_normal(-normal_at(at, end.t[lane], end.place[lane]));
+    };
+    // Only where the material ends there afterwards (row.cpp).
+    if (!lo || (a > lo[lane] && a <= hi[lane])) out.normal_a[lane] = direction(ends.a);
+    if (!lo || (b >= lo[lane] && b < hi[lane])) out.normal_b[lane] = direction(ends.b);
   }
   return touched;
 }

@@ -1,6 +1,10 @@
 // Sweeps with a tool axis in any direction. Private to stock.
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "stock/outline.h"
 #include "stock/solid.h"
 
@@ -24,14 +28,16 @@ class TiltedSweep {
               const std::uint16_t* lo, const std::uint16_t* hi, Chords& out) const;
 
  private:
-  struct Ends;
-  void band_ends(const Band& band, const Vec3& origin, int ray_axis, Ends& ends) const;
+  /// `rel` is seen from the path's start; t and place as in TiltedEnds.
+  Vec3 normal_at(const Vec3& rel, double t, std::int64_t place) const;
   bool holds(const Vec3& p) const;
-  bool misses(const Vec3& from, const Vec3& to) const;
 
   const Outline* outline_;
-  std::vector<Band> bands_;  ///< corners with e > 0 as cones
+  std::array<std::vector<TiltedBand>, 3> ray_bands_;  ///< by the rays' axis
+  std::vector<Band> bands_;                           ///< corners with e > 0 as cones
   Vec3 start_, travel_, axis_;
+  Vec3 way_;                    ///< the travel seen along the axis
+  double way2_ = 0, per_way2_;  ///< its square; 1 over it, 0 where there is none
   Box3 box_;
   double tip_low_, tip_high_;  ///< of the tip, along the axis
 };

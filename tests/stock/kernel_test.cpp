@@ -69,5 +69,65 @@ TEST(Kernels, GiveTheSameBytesWithEveryInstructionSet) {
   }
 }
 
+TEST(Kernels, GiveTheSameEndsInAnyDirectionWithEveryInstructionSet) {
+  if (!avx2_kernels()) GTEST_SKIP() << "this processor has no AVX2";
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int n = 0; n < 2000; ++n) {
+    TiltedBand band{};
+    for (double* const x : {&band.zu, &band.zd, &band.growth, &band.radius, &band.ru, &band.rd})
+      *x = number(random);
+    band.z0 = -1 + number(random);
+    band.z1 = 1 + number(random);
+    band.ball = n % 3 == 0;
+    band.along_ray = n % 2 == 0;
+    band.A = 0.5 + 0.4 * number(random);
+    band.B = number(random);
+    band.C = n % 5 == 0 ? 0 : 0.5 + 0.4 * number(random);
+    band.per_A = 1 / band.A;
+    if (band.C != 0) {
+      band.per_C = 1 / band.C;
+      band.hull = band.A - band.B * band.B * band.per_C;
+      band.per_hull = 1 / band.hull;
+    }
+    band.q = number(random);
+    band.border = number(random);
+    band.per_border = 1 / band.border;
+    TiltedRow row{};
+    row.pitch = 0.1;
+    row.quantum = 0.1 / quanta_per_cell;
+    row.u = number(random);
+    row.across = number(random);
+    row.square = 2 + number(random);
+    row.z = number(random);
+    row.z_l = 0.3 * number(random);
+    row.z_u = 0.3 * number(random);
+    row.d = number(random);
+    row.d_l = number(random);
+    row.low = -3;
+    row.high = 3;
+    row.radius = 2 + number(random);
+    row.seen = 0.9;
+    std::uint16_t lo[cells], hi[cells];
+    for (int i = 0; i < cells; ++i) {
+      lo[i] = static_cast<std::uint16_t>(random() % 61440);
+      hi[i] = static_cast<std::uint16_t>(random() % 61441);
+    }
+    TiltedEnds a, b;
+    std::memset(&a, 0, sizeof a);
+    std::memset(&b, 0, sizeof b);
+    const std::uint32_t lanes = portable_kernels().tilted(&band, 1, row, lo, hi, a);
+    ASSERT_EQ(lanes, avx2_kernels()->tilted(&band, 1, row, lo, hi, b)) << n;
+    for (int i = 0; i < cells; ++i) {
+      if ((lanes >> i & 1) == 0) continue;
+      for (const auto end : {&TiltedEnds::a, &TiltedEnds::b}) {
+        EXPECT_EQ(std::memcmp(&(a.*end).tau[i], &(b.*end).tau[i], sizeof(double)), 0) << n;
+        EXPECT_EQ(std::memcmp(&(a.*end).t[i], &(b.*end).t[i], sizeof(double)), 0) << n;
+        EXPECT_EQ((a.*end).place[i], (b.*end).place[i]) << n;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace aircut::stock
