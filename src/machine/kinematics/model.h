@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "machine/kinematics/kinematics_table.h"
 #include "machine/kinematics/slope_bound.h"
@@ -62,6 +63,9 @@ struct BasicModel {
 ///   template <class T> std::array<T, joints + passives + guards>
 ///       solve(const PoseWords<T>& tip, const Vec3& tool, branch) const
 ///   tl::expected<AxisValues, ReachError> forward(const JointVector&, const Vec3& tool) const
+/// and may have why_not() and solve<double>() in one, which needs to give the joints alone:
+///   std::optional<std::string> solve_checked(const PoseWords<double>& tip, const Vec3& tool,
+///                                            branch, std::array<double, …>& q) const
 template <class Model>
 class ModelKinematics final : public Kinematics {
  public:
@@ -82,9 +86,9 @@ class ModelKinematics final : public Kinematics {
     const auto branch = model_.branch_of(near);
     for (const double word : pose)
       if (!std::isfinite(word)) return unexpected(ReachError{"the pose is no number"});
-    if (auto error = model_.why_not(pose, tool, branch))
+    Solved q;
+    if (auto error = checked(pose, tool, branch, q))
       return unexpected(ReachError{std::move(*error)});
-    const auto q = model_.template solve<double>(pose, tool, branch);
     JointVector joints(Model::joints);
     constexpr double turn = 2 * std::numbers::pi;
     for (int j = 0; j < Model::joints; ++j) {
@@ -172,6 +176,23 @@ class ModelKinematics final : public Kinematics {
   static constexpr int splits = 9;
   static constexpr std::size_t values =
       static_cast<std::size_t>(Model::joints + Model::passives + Model::guards);
+
+  using Solved = decltype(std::declval<const Model&>().template solve<double>(
+      PoseWords<double>{}, Vec3{}, typename Model::Branch{}));
+
+  /// Why there is no solution, or the solution's joints. A model whose check has the parts of its
+  /// solution at hand has both in one, `solve_checked`.
+  template <class Branch>
+  std::optional<std::string> checked(const PoseWords<double>& pose, const Vec3& tool,
+                                     const Branch& branch, Solved& q) const {
+    if constexpr (requires { model_.solve_checked(pose, tool, branch, q); }) {
+      return model_.solve_checked(pose, tool, branch, q);
+    } else {
+      auto error = model_.why_not(pose, tool, branch);
+      if (!error) q = model_.template solve<double>(pose, tool, branch);
+      return error;
+    }
+  }
 
   static PoseWords<double> words_of(const AxisValues& tip) {
     PoseWords<double> pose;

@@ -12,6 +12,7 @@
 // in the order x y z b a).
 #include <Eigen/LU>
 
+#include "machine/kinematics/determinant.h"
 #include "machine/kinematics/parameters.h"
 #include "machine/kinematics/rods.h"
 
@@ -64,30 +65,50 @@ struct Pentapod : BasicModel {
     return q;
   }
 
-  // Derivatives of the struts by x y z (mm) and A B (in units of 1 rad · lever).
+  // Derivatives of the struts by x y z (mm) and A B (in units of 1 rad · lever). With the tool's
+  // length L, w = Rᵀ(a − tip) − (0, 0, L), and g the strut's direction seen from the spindle:
+  // dq = g·dw with dw = −Rᵀ dtip, and for the angles with w' = w + (0, 0, L)
+  // ∂w/∂A = (0, w'_z, −w'_y), ∂w/∂B = (−ζ', sA w'_x, cA w'_x), ζ' = sB d_x + cB d_z of d = a − tip.
   static constexpr double lever = 100;
   void rows_of(const PoseWords<double>& tip, const Vec3& tool, Matrix5& J, Vector5& q) const {
-    for (std::size_t column = 0; column < 5; ++column) {
-      PoseWords<Jet> pose;
-      for (std::size_t i = 0; i < pose.size(); ++i) pose[i] = Jet(tip[i]);
-      pose[column].d = column < 3 ? 1 : 1 / lever;
-      const auto out = solve<Jet>(pose, tool, 0);
-      for (std::size_t i = 0; i < 5; ++i) {
-        const auto row = static_cast<Eigen::Index>(i);
-        J(row, static_cast<Eigen::Index>(column)) = out[i].d;
-        q[row] = out[i].v;
-      }
+    const double ca = std::cos(tip[3]), sa = std::sin(tip[3]);
+    const double cb = std::cos(tip[4]), sb = std::sin(tip[4]);
+    for (int i = 0; i < 5; ++i) {
+      const auto at = static_cast<std::size_t>(i);
+      const Vec3 d = base[at] - Vec3(tip[0], tip[1], tip[2]);
+      const double x = cb * d.x() - sb * d.z(), turned = sb * d.x() + cb * d.z();
+      const double y = ca * d.y() + sa * turned, z = ca * turned - sa * d.y();
+      const double out = std::sqrt(x * x + y * y), beyond = out - ring[at];
+      const double up = z - tool.z() - height[at];
+      q[i] = std::sqrt(up * up + beyond * beyond);
+      const double along = beyond / (q[i] * out);
+      const Vec3 g(along * x, along * y, up / q[i]);
+      const double level = sa * g.y() + ca * g.z();  // of Rx(A)·g, its z
+      J(i, 0) = -(cb * g.x() + sb * level);
+      J(i, 1) = sa * g.z() - ca * g.y();
+      J(i, 2) = sb * g.x() - cb * level;
+      J(i, 3) = (g.y() * z - g.z() * y) / lever;
+      J(i, 4) = (x * level - turned * g.x()) / lever;
     }
   }
 
-  std::optional<std::string> why_not(const PoseWords<double>& tip, const Vec3& tool, int) const {
+  std::optional<std::string> why_not(const PoseWords<double>& tip, const Vec3& tool,
+                                     int branch) const {
+    std::array<double, joints + passives> q;
+    return solve_checked(tip, tool, branch, q);
+  }
+
+  std::optional<std::string> solve_checked(const PoseWords<double>& tip, const Vec3& tool, int,
+                                           std::array<double, joints + passives>& out) const {
     Matrix5 J;
     Vector5 q;
     rows_of(tip, tool, J, q);
-    for (int i = 0; i < 5; ++i)
+    for (int i = 0; i < 5; ++i) {
       if (!(q[i] > 1e-6)) return "strut " + std::to_string(i + 1) + " would have no length";
+      out[static_cast<std::size_t>(i)] = q[i];
+    }
     constexpr double least = 1e-6;
-    if (J.allFinite() && J.determinant() * sign > least) return std::nullopt;
+    if (J.allFinite() && determinant(J) * sign > least) return std::nullopt;
     return std::string(
         "the struts can't hold the spindle there (a singular pose), or it is beyond such a pose");
   }
@@ -187,11 +208,12 @@ std::shared_ptr<const Kinematics> read_pentapod(KinematicsInput& input) {
   Matrix5 J;
   Vector5 q;
   model.rows_of({model.start.x(), model.start.y(), model.start.z(), 0, 0, 0}, Vec3::Zero(), J, q);
-  if (!J.allFinite() || !(std::abs(J.determinant()) > 1e-6)) {
+  const double at_start = determinant(J);
+  if (!J.allFinite() || !(std::abs(at_start) > 1e-6)) {
     p.fail("type", "with the spindle upright at 'start' the struts don't hold it");
     return nullptr;
   }
-  model.sign = J.determinant() > 0 ? 1 : -1;
+  model.sign = at_start > 0 ? 1 : -1;
   return make_model(model);
 }
 

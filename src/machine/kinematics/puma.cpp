@@ -43,25 +43,37 @@ struct Puma : RobotModel {
   }
 
   template <class T>
-  RobotJoints<T> solve(const RobotPose<T>& tip, const Vec3& tool, const RobotBranch& branch) const {
-    using std::atan2;
-    using std::cos;
-    using std::sin;
-    const auto R = Rotation<T>::about_fixed(tip[3], tip[4], tip[5]);
-    const auto [C, n] = wrist(tip, R, tool.z());
+  RobotJoints<T> joints_for(const Rotation<T>& R, const Wrist<T>& w,
+                            const RobotBranch& branch) const {
     RobotJoints<T> q{};
-    solve_arm(p, branch, C, n, q);
-    q[5] = roll_of_flange(q, R(Vec3::UnitX()));
+    const Forearm<T> forearm = solve_arm(p, branch, w.C, w.n, q);
+    q[5] = roll_of_flange(forearm, q, R(Vec3::UnitX()));
     q[1] = -q[1] - T(right);
     q[2] = -q[2];
     q[4] = T(right) - q[4];
     return q;
   }
 
+  template <class T>
+  RobotJoints<T> solve(const RobotPose<T>& tip, const Vec3& tool, const RobotBranch& branch) const {
+    const auto R = Rotation<T>::about_fixed(tip[3], tip[4], tip[5]);
+    return joints_for(R, wrist(tip, R, tool.z()), branch);
+  }
+
+  std::optional<std::string> solve_checked(const RobotPose<double>& tip, const Vec3& tool,
+                                           const RobotBranch& branch,
+                                           RobotJoints<double>& q) const {
+    const auto R = Rotation<double>::about_fixed(tip[3], tip[4], tip[5]);
+    const Wrist<double> w = wrist(tip, R, tool.z());
+    if (auto error = why_no_arm(p, branch, vec3(w.C), vec3(w.n))) return error;
+    q = joints_for(R, w, branch);
+    return std::nullopt;
+  }
+
   std::optional<std::string> why_not(const RobotPose<double>& tip, const Vec3& tool,
                                      const RobotBranch& branch) const {
-    const auto [C, n] = wrist(tip, Rotation<double>::about_fixed(tip[3], tip[4], tip[5]), tool.z());
-    return why_no_arm(p, branch, vec3(C), vec3(n));
+    const auto w = wrist(tip, Rotation<double>::about_fixed(tip[3], tip[4], tip[5]), tool.z());
+    return why_no_arm(p, branch, vec3(w.C), vec3(w.n));
   }
 
   tl::expected<AxisValues, ReachError> forward(const JointVector& q, const Vec3& tool) const {

@@ -30,8 +30,8 @@ struct SixAxis : CoaxialRobot {
                        const RobotBranch& branch) const {
     const auto [C, n] = wrist(pose, tool.z());
     RobotJoints<T> q{};
-    solve_arm(p, branch, C, n, q);
-    q[5] = roll_of_flange(q, x_of_flange(pose));
+    const Forearm<T> forearm = solve_arm(p, branch, C, n, q);
+    q[5] = roll_of_flange(forearm, q, x_of_flange(pose));
     return q;
   }
 

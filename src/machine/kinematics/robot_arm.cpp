@@ -27,14 +27,16 @@ double wrist_factor(const RobotArm& p, const RobotBranch& branch, const Vec3& C,
 
 std::optional<std::string> why_no_arm(const RobotArm& p, const RobotBranch& branch, const Vec3& C,
                                       const Vec3& n) {
-  const double out = std::hypot(C.x(), C.y());
+  // Lengths of an arm are far from where a square could overflow.
+  const auto length_of = [](double x, double y) { return std::sqrt(x * x + y * y); };
+  const double out = length_of(C.x(), C.y());
   const double r2 = (out - p.b) * (out + p.b);
   if (!(r2 > robot_singular * robot_singular) || !(out > robot_singular))
     return "the centre of the wrist is " + fixed(out, 3) + " mm from the axis of joint 1" +
            (p.b == 0 ? ", where joint 1 can turn freely (a singular pose)"
                      : "; it must stay farther than " + fixed(std::abs(p.b), 3) + " mm");
   const double u = branch.shoulder * std::sqrt(r2) - p.a1, v = C.z() - p.d1;
-  const double l3 = std::hypot(p.a3, p.d4), far = std::hypot(u, v);
+  const double l3 = length_of(p.a3, p.d4), far = length_of(u, v);
   if (far > p.a2 + l3)
     return "the centre of the wrist is " + fixed(far - p.a2 - l3, 3) +
            " mm beyond the reach of the arm, " + fixed(p.a2 + l3, 3) + " mm";

@@ -39,10 +39,10 @@ struct Forearm {
   }
 };
 
-/// θ1 … θ5 for the wrist centre C and the direction n of the flange, both in {0}.
+/// θ1 … θ5 for the wrist centre C and the direction n of the flange, both in {0}; frame 3 there.
 template <class T>
-void solve_arm(const RobotArm& p, const RobotBranch& branch, const Vector<T>& C, const Vector<T>& n,
-               RobotJoints<T>& q) {
+Forearm<T> solve_arm(const RobotArm& p, const RobotBranch& branch, const Vector<T>& C,
+                     const Vector<T>& n, RobotJoints<T>& q) {
   using std::acos;
   using std::atan2;
   using std::sqrt;
@@ -58,19 +58,21 @@ void solve_arm(const RobotArm& p, const RobotBranch& branch, const Vector<T>& C,
   q[2] = T(std::atan2(p.d4, p.a3)) - e * acos(K);
   const T lift = e * T(l3) * sqrt((T(1) - K) * (T(1) + K));
   q[1] = atan2(v, u) - T(std::numbers::pi / 2) + atan2(lift, T(p.a2) + T(l3) * K);
-  const Vector<T> m = Forearm<T>(q[0], q[1] + q[2]).seen(n);
+  const Forearm<T> forearm(q[0], q[1] + q[2]);
+  const Vector<T> m = forearm.seen(n);
   q[3] = atan2(-w * m[1], -w * m[0]);
   q[4] = atan2(m[2], w * sqrt(square(m[0]) + square(m[1])));
+  return forearm;
 }
 
 /// θ6 for the others and the flange's x axis in {0}. Frame 5 seen from frame 3: x_5 = (c4 s5, s4
 /// s5, c5), y_5 = (−s4, c4, 0), and θ6 = atan2(y_5·x_6, x_5·x_6).
 template <class T>
-T roll_of_flange(const RobotJoints<T>& q, const Vector<T>& x6_in_0) {
+T roll_of_flange(const Forearm<T>& forearm, const RobotJoints<T>& q, const Vector<T>& x6_in_0) {
   using std::atan2;
   using std::cos;
   using std::sin;
-  const Vector<T> x6 = Forearm<T>(q[0], q[1] + q[2]).seen(x6_in_0);
+  const Vector<T> x6 = forearm.seen(x6_in_0);
   const T c4 = cos(q[3]), s4 = sin(q[3]), c5 = cos(q[4]), s5 = sin(q[4]);
   return atan2(c4 * x6[1] - s4 * x6[0], s5 * (c4 * x6[0] + s4 * x6[1]) + c5 * x6[2]);
 }

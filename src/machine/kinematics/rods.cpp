@@ -3,18 +3,19 @@
 namespace aircut::machine {
 
 std::optional<std::string> why_no_rod(const Rod& rod, int number, const Vec3& w) {
-  const std::string name = (rod.is_strut() ? "strut " : "rod ") + std::to_string(number);
+  // No text is made on the way that is gone for every pose.
+  const auto name = [&] { return (rod.is_strut() ? "strut " : "rod ") + std::to_string(number); };
   constexpr double singular_mm = 1e-6;
   if (rod.is_strut()) {
-    if (w.norm() > singular_mm) return std::nullopt;
-    return name + " would have no length: the platform's joint is in its anchor";
+    if (w.squaredNorm() > singular_mm * singular_mm) return std::nullopt;
+    return name() + " would have no length: the platform's joint is in its anchor";
   }
   const double distance = (w - rod.rail.dot(w) * rod.rail).norm();
   if (distance > rod.length)
-    return name + " is " + fixed(distance - rod.length, 3) + " mm too short: its joint is " +
+    return name() + " is " + fixed(distance - rod.length, 3) + " mm too short: its joint is " +
            fixed(distance, 3) + " mm from the rail";
   if (!((rod.length - distance) * (rod.length + distance) > singular_mm * singular_mm))
-    return name +
+    return name() +
            " is square to its rail, where the carriage would need an infinite speed (a "
            "singular pose)";
   return std::nullopt;

@@ -15,6 +15,7 @@
 // the order x y z c b a), and the rods' angles when the tree has them.
 #include <Eigen/LU>
 
+#include "machine/kinematics/determinant.h"
 #include "machine/kinematics/parameters.h"
 #include "machine/kinematics/rods.h"
 #include "machine/rotation/rotation.h"
@@ -112,7 +113,14 @@ struct Rods6 : BasicModel {
     return q;
   }
 
-  std::optional<std::string> why_not(const PoseWords<double>& tip, const Vec3& tool, int) const {
+  std::optional<std::string> why_not(const PoseWords<double>& tip, const Vec3& tool,
+                                     int branch) const {
+    std::array<double, joints + passives> q;
+    return solve_checked(tip, tool, branch, q);
+  }
+
+  std::optional<std::string> solve_checked(const PoseWords<double>& tip, const Vec3& tool, int,
+                                           std::array<double, joints + passives>& out) const {
     const auto R = Rotation<double>::about_fixed(tip[3], tip[4], tip[5]);
     Pose X = Pose::Identity();
     for (int i = 0; i < 3; ++i) X.linear().row(i) = vec3(R.rows[static_cast<std::size_t>(i)]);
@@ -122,7 +130,7 @@ struct Rods6 : BasicModel {
       const Rod& rod = g.rods[static_cast<std::size_t>(i)];
       const Vec3 w = X * rod.joint - rod.base;
       if (auto error = why_no_rod(rod, i + 1, w)) return error;
-      q[i] = rod_joint(rod, Vector<double>{w.x(), w.y(), w.z()});
+      out[static_cast<std::size_t>(i)] = q[i] = rod_joint(rod, Vector<double>{w.x(), w.y(), w.z()});
     }
     return why_singular(X, q);
   }
@@ -132,7 +140,7 @@ struct Rods6 : BasicModel {
     Vector6 miss;
     rows_of(g, X, q, J, miss);
     constexpr double least = 1e-6;  // rows are unit vectors and arms in levers
-    if (J.determinant() * g.sign > least) return std::nullopt;
+    if (determinant(J) * g.sign > least) return std::nullopt;
     return "the rods can't hold the platform there (a singular pose), or it is beyond such a pose";
   }
 
@@ -214,12 +222,12 @@ std::shared_ptr<const Kinematics> six(KinematicsInput& input, std::string_view n
   Matrix6 J;
   Vector6 miss;
   rows_of(g, g.start, q, J, miss);
-  const double determinant = J.determinant();
-  if (!(std::abs(determinant) > 1e-6)) {
+  const double at_start = determinant(J);
+  if (!(std::abs(at_start) > 1e-6)) {
     p.fail("type", "with the platform at 'start' the rods don't hold it, or don't reach it");
     return nullptr;
   }
-  g.sign = determinant > 0 ? 1 : -1;
+  g.sign = at_start > 0 ? 1 : -1;
   return make_model(model);
 }
 
