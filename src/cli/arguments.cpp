@@ -445,9 +445,23 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_workspace->add_flag("--nodes", workspace.nodes, "points at the ends of the ranges, not cells");
   c_workspace->add_flag("--connected", workspace.connected,
                         "only what is connected with home by neighbouring points");
+  c_workspace->add_flag("--collision-free", workspace.free,
+                        "only where no two bodies of machine, tool and fixtures touch");
+  c_workspace->add_option("--setup", workspace.setup, "setup.toml: fixtures and stock")
+      ->type_name("FILE");
+  c_workspace->add_option("-t,--tools", workspace.tools, "tool file, for --tool")
+      ->type_name("FILE");
+  c_workspace->add_option("--tool", workspace.tool, "tool in the spindle, whose tip is asked about")
+      ->type_name("N")
+      ->check(CLI::NonNegativeNumber.description(""));
+  c_workspace->add_option("--threads", workspace.threads, "(default: one per core)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 64).description(""));
   c_workspace
-      ->add_option("-o,--out", workspace.output,
-                   "the points (.csv, .npy) or the solid of what is reached (.stl); repeatable")
+      ->add_option(
+          "-o,--out", workspace.output,
+          "the points (.csv, .npy), the solid of what is reached (.stl) or a picture (.png); "
+          "repeatable")
       ->type_name("FILE");
   c_workspace->add_flag("--force", workspace.force, "replace files that exist");
   add_color(c_workspace, workspace.color);

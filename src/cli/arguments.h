@@ -112,7 +112,12 @@ struct WorkspaceArguments {
   std::string a, b;     ///< tilts that each point must allow
   double pitch = 10;
   bool nodes = false, connected = false;
-  std::vector<std::string> output;  ///< .csv, .npy, .stl
+  bool free = false;                ///< only where no bodies touch
+  std::string tools;                ///< tool file
+  std::string setup;                ///< fixtures and stock
+  int tool = 0;                     ///< in the spindle; its tip is what reaches
+  int threads = 0;                  ///< 0: one per core
+  std::vector<std::string> output;  ///< .csv, .npy, .stl, .png
   bool force = false;
   When color = When::automatic;
 };

@@ -7,7 +7,9 @@
 #include "cli/exit_code.h"
 #include "cli/job.h"
 #include "cli/rows.h"
+#include "cli/workspace_picture.h"
 #include "machine/workspace/workspace_files.h"
+#include "sim/pose_check.h"
 
 namespace aircut::cli {
 
@@ -80,11 +82,13 @@ void print_workspace(const machine::Machine& machine, const machine::Workspace& 
   }
   for (std::size_t j = 0; j < w.failures().size(); ++j) {
     if (w.failures()[j] == 0) continue;
-    const bool limit = j + 1 < w.failures().size();
+    const auto joints = static_cast<std::size_t>(machine.joint_count());
     const std::string why =
-        limit ? "joint " + printable(machine.joint(machine::JointId{static_cast<int>(j)}).name) +
-                    " beyond its travel"
-              : std::string("no solution");
+        j < joints
+            ? "joint " + printable(machine.joint(machine::JointId{static_cast<int>(j)}).name) +
+                  " beyond its travel"
+        : j == joints ? "no solution"
+                      : "bodies touch";
     std::printf("  not reached  %ld: %s\n", w.failures()[j], why.c_str());
   }
 }
@@ -93,9 +97,9 @@ void print_workspace(const machine::Machine& machine, const machine::Workspace& 
 Expected<void> check_outputs(const WorkspaceArguments& a) {
   for (const std::string& path : a.output) {
     const std::string ending = std::filesystem::path(path).extension().string();
-    if (ending != ".csv" && ending != ".npy" && ending != ".stl")
+    if (ending != ".csv" && ending != ".npy" && ending != ".stl" && ending != ".png")
       return unexpected(make_error(
-          "usage", "the name of '" + printable(path) + "' must end in .csv, .npy or .stl"));
+          "usage", "the name of '" + printable(path) + "' must end in .csv, .npy, .stl or .png"));
     std::error_code error;
     if (std::filesystem::exists(path, error) && !a.force)
       return unexpected(
@@ -104,12 +108,46 @@ Expected<void> check_outputs(const WorkspaceArguments& a) {
   return {};
 }
 
-Expected<void> write_outputs(const WorkspaceArguments& a, const machine::Workspace& workspace) {
+// What a picture says below: how the points were chosen, and what stands in it.
+std::vector<std::string> picture_notes(const WorkspaceArguments& a,
+                                       const machine::WorkspaceQuery& query) {
+  std::vector<std::string> notes = {"pitch " + shortest(query.pitch) + " mm" +
+                                    (a.nodes ? ", nodes" : ", middles of cells")};
+  const auto tilt = [&](const char* name, const std::string& range) {
+    if (!range.empty()) notes.front() += std::string(", ") + name + " " + range + "°";
+  };
+  tilt("A", a.a);
+  tilt("B", a.b);
+  if (a.tool != 0) notes.front() += ", tip of tool T" + std::to_string(a.tool);
+  if (a.connected) notes.front() += ", connected with home";
+  if (a.free) notes.front() += ", free of collision";
+  return notes;
+}
+
+// Which of the tilts is none: the picture shows both.
+std::optional<machine::Workspace> without_tilts(const machine::Machine& machine,
+                                                machine::WorkspaceQuery query) {
+  if (query.tilts.size() < 2) return std::nullopt;
+  query.tilts.clear();
+  return machine::Workspace::of(machine, query);
+}
+
+Expected<void> write_outputs(const WorkspaceArguments& a, const machine::Machine& machine,
+                             const machine::WorkspaceQuery& query,
+                             const machine::Workspace& workspace) {
   for (const std::string& path : a.output) {
     const std::string ending = std::filesystem::path(path).extension().string();
-    const std::string bytes = ending == ".csv"   ? machine::workspace_csv(workspace)
-                              : ending == ".npy" ? machine::workspace_npy(workspace)
-                                                 : stl_bytes(machine::workspace_solid(workspace));
+    std::string bytes;
+    if (ending == ".png") {
+      auto picture = workspace_picture(machine, workspace, without_tilts(machine, query),
+                                       picture_notes(a, query));
+      if (!picture) return unexpected(picture.error());
+      bytes = std::move(*picture);
+    } else {
+      bytes = ending == ".csv"   ? machine::workspace_csv(workspace)
+              : ending == ".npy" ? machine::workspace_npy(workspace)
+                                 : stl_bytes(machine::workspace_solid(workspace));
+    }
     if (auto written = write_file(path, bytes); !written) return written;
     std::printf("  written      %s\n", printable(path).c_str());
   }
@@ -129,6 +167,8 @@ int workspace_command(const WorkspaceArguments& a) {
   ProgramArguments inputs;
   inputs.machine = a.machine;
   inputs.ini_use = ProgramArguments::IniUse::machine;
+  inputs.tools = a.tools;
+  inputs.setup = a.setup;
   const bool opened = open_inputs(job, inputs);
   print_errors(job.diagnostics, a.color);
   if (!opened) return code(ExitCode::unknown);
@@ -164,6 +204,21 @@ int workspace_command(const WorkspaceArguments& a) {
       return fail("usage", std::string("this machine has no axis ") + letter(axis));
   query.tilts = machine::tilts_of_box(tilt_a->first * degree, tilt_a->second * degree,
                                       tilt_b->first * degree, tilt_b->second * degree);
+  sim::Scene scene(job.machine, job.tools);
+  scene.load_tool(a.tool);
+  if (a.tool != 0 && !scene.tool())
+    return fail("usage", "tool T" + std::to_string(a.tool) + " is not in the tool table");
+  if (a.tool != 0) query.tool_offset = scene.tool()->offset;
+  query.threads = a.threads;
+  std::optional<sim::PoseCheck> bodies;
+  if (a.free) {
+    bodies.emplace(std::move(scene), job.start);
+    if (bodies->pairs() == 0)
+      return fail("input", "this machine has no two bodies that could touch");
+    for (const std::string& pair : bodies->left_out())
+      std::printf("  left out     %s: they touch at home\n", printable(pair).c_str());
+    query.is_free = [&](const machine::JointVector& q) { return bodies->is_free(q); };
+  }
   auto workspace = machine::Workspace::of(machine, query);
   if (!workspace)
     return fail("usage", "the grid has more than " +
@@ -175,7 +230,7 @@ int workspace_command(const WorkspaceArguments& a) {
       return fail("input", "the point of the grid that is nearest to home is not reached");
   }
   print_workspace(machine, *workspace, query);
-  if (const auto written = write_outputs(a, *workspace); !written)
+  if (const auto written = write_outputs(a, machine, query, *workspace); !written)
     return fail(written.error().kind, written.error().message);
   return code(workspace->reached() > 0 ? ExitCode::pass : ExitCode::fail);
 }

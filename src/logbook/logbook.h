@@ -183,6 +183,26 @@ struct Diagram {
   std::vector<Curve> curves;
   int width = 900, height = 560;
 };
+/// A plane grid of cells, for a map: what each is, by rows of rising y.
+struct MapPlane {
+  std::string title, x_name, y_name;
+  double x = 0, y = 0, pitch = 1;  ///< middle of the first cell, and the distance of cells
+  int columns = 0, rows = 0;
+  std::vector<unsigned char> cells;  ///< 0: none; 1, 2: index + 1 into Map::kinds; x fastest
+  /// A frame about a part of it: x, y of the lower left and of the upper right corner.
+  std::optional<std::array<double, 4>> frame;
+};
+struct Map {
+  std::string title;
+  std::vector<std::string> kinds;  ///< what 1 and 2 mean
+  std::string frame;               ///< what the frames are
+  std::vector<std::string> notes;  ///< lines below
+  std::vector<MapPlane> planes;    ///< side by side, all in one scale
+  int width = 1400;
+};
+/// A PNG file: the planes with axes, outlines and a bar of the scale.
+Expected<std::string> draw(const Map& map);
+
 /// A PNG file: the curves over one pair of axes, named on the right.
 Expected<std::string> draw(const Diagram& diagram);
 

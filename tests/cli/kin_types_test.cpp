@@ -69,6 +69,14 @@ TEST_F(KinTypes, WorkspaceTellsWhatAMachineReaches) {
   EXPECT_NE(glide.out.find("300 x 1 x 153 cells"), std::string::npos) << glide.out;
   EXPECT_NE(glide.out.find("joint S1 beyond its travel"), std::string::npos) << glide.out;
   EXPECT_EQ(run("workspace -m " + root + "ox-glide-crossed --x 5:1").code, 2);
+  const std::string slice = "workspace -m " + root + "mill5-ac --x=-250:250 --y=-200:200 --z 100";
+  const Outcome picture = run(slice + " --pitch 50 --collision-free --tool 1 -o w.png");
+  EXPECT_EQ(picture.code, 0) << picture.out << picture.err;
+  EXPECT_NE(picture.out.find("bodies touch"), std::string::npos) << picture.out;
+  EXPECT_GT(fs::file_size(folder_ / "w.png"), 5000u);
+  EXPECT_EQ(run("workspace -m " + root + "mill5-ac --x 0:100 --y 0 --z 100 -o line.png").code, 2)
+      << "a line is no picture";
+  EXPECT_EQ(run(slice + " --pitch 50 --tool 99").code, 2);
   EXPECT_EQ(run("workspace -m " + root + "mill3 --tilt-a 0:5").code, 2);
   EXPECT_EQ(run("workspace -m " + root + "mill3 --pitch 0.05").code, 2);
 }

@@ -8,8 +8,11 @@
 #include "machine/workspace/workspace.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <mutex>
 #include <numbers>
+#include <thread>
 
 #include "machine/random.h"
 
@@ -90,24 +93,46 @@ std::optional<Workspace> Workspace::of(const Machine& machine, const WorkspaceQu
   std::vector<AxisValues> tilts = query.tilts;
   if (tilts.empty()) tilts.emplace_back();
   const JointVector home = machine.home();
-  w.failures_.assign(static_cast<std::size_t>(machine.joint_count()) + 1, 0);
-  const auto reached = [&](const Vec3& p) {
+  const int no_solution = machine.joint_count(), in_the_way = no_solution + 1;
+  w.failures_.assign(static_cast<std::size_t>(in_the_way) + 1, 0);
+  const auto reached = [&](const Vec3& p, std::vector<long>& failures) {
     for (AxisValues tip : tilts) {
       tip[Axis::x] = p.x();
       tip[Axis::y] = p.y();
       tip[Axis::z] = p.z();
-      const auto q = machine.kinematics().inverse({tip, {}}, home);
-      const int bad = q ? beyond(machine, *q) : machine.joint_count();
+      const auto q = machine.kinematics().inverse({tip, query.tool_offset}, home);
+      int bad = q ? beyond(machine, *q) : no_solution;
+      if (bad < 0 && query.is_free && !query.is_free(*q)) bad = in_the_way;
       if (bad < 0) continue;
-      ++w.failures_[static_cast<std::size_t>(bad)];
+      ++failures[static_cast<std::size_t>(bad)];
       return false;
     }
     return true;
   };
-  w.bits_.reserve(static_cast<std::size_t>(points));
-  for (int k = 0; k < w.count_[2]; ++k)
-    for (int j = 0; j < w.count_[1]; ++j)
-      for (int i = 0; i < w.count_[0]; ++i) w.bits_.push_back(reached(w.place(i, j, k)) ? 1 : 0);
+  // Threads take pieces of the grid as they get done; what they write and count does not depend on
+  // who takes which.
+  w.bits_.assign(static_cast<std::size_t>(points), 0);
+  constexpr long piece = 2048;
+  std::atomic<long> next = 0;
+  std::mutex counting;
+  const auto work = [&] {
+    std::vector<long> failures(w.failures_.size(), 0);
+    for (long begin; (begin = next.fetch_add(piece)) < w.points();)
+      for (long n = begin; n < std::min(begin + piece, w.points()); ++n) {
+        const long nx = w.count_[0], ny = w.count_[1];
+        const Vec3 p = w.place(static_cast<int>(n % nx), static_cast<int>(n / nx % ny),
+                               static_cast<int>(n / nx / ny));
+        w.bits_[static_cast<std::size_t>(n)] = reached(p, failures) ? 1 : 0;
+      }
+    const std::lock_guard lock(counting);
+    for (std::size_t i = 0; i < failures.size(); ++i) w.failures_[i] += failures[i];
+  };
+  const long cores = static_cast<long>(std::max(1u, std::thread::hardware_concurrency()));
+  const long wanted = query.threads > 0 ? query.threads : cores;
+  std::vector<std::thread> others;
+  for (long i = 1; i < std::min(wanted, w.points() / piece + 1); ++i) others.emplace_back(work);
+  work();
+  for (std::thread& other : others) other.join();
   return w;
 }
 

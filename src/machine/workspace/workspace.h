@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ struct WorkspaceQuery {
   double pitch = 10;                             ///< mm
   bool nodes = false;             ///< points at low, low + pitch, … high; else centres of cells
   std::vector<AxisValues> tilts;  ///< A B C that a point must allow, all of them; rad. Empty: zero
+  AxisValues tool_offset;
+  /// Is nothing in the way at these joints? Called from several threads. Empty: not asked.
+  std::function<bool(const JointVector&)> is_free;
+  int threads = 0;  ///< 0: one per core. The result does not depend on it
 };
 
 /// A box of grid points, by the places of its first and last ones.
@@ -55,7 +60,8 @@ class Workspace {
   /// Keeps what is connected with the point nearest to p, by neighbours along the axes; false, and
   /// nothing is changed, when that point is not reached.
   bool keep_connected(const Vec3& p);
-  /// Points that failed by each joint's limit, by JointId, and last those without a solution.
+  /// Points that failed by each joint's limit, by JointId, then those without a solution, and last
+  /// those where something is in the way.
   const std::vector<long>& failures() const { return failures_; }
 
  private:
