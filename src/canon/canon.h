@@ -180,6 +180,13 @@ struct WaitInput {
   int mode = 0;  ///< 0 immediate 1 rise 2 fall 3 high 4 low
   double timeout = 0;
 };
+/// From here on X Y Z … mean what another kinematics of the machine says, by its number. The joints
+/// stand still; where the tip is then, whoever moves the machine tells the interpreter.
+struct SwitchKinematics {
+  int model = 0;
+  bool with_motion = false;     ///< M67: at the start of the next motion
+  bool unsynchronised = false;  ///< M68: until an M66 the control plans from the old position
+};
 /// M100–M199 and remaps that are not NC: listed, never run.
 struct UserCode {
   char letter = 'M';  ///< G: data setting (G10 L50)
@@ -211,8 +218,8 @@ using Action =
                  SetFeedRate, SelectPlane, UseUnit, WorkOffset, WorkRotation, G92Offset, ProgramMap,
                  ToolLengthOffset, SetPathMode, SetNaiveCam, SetSpindleMode, SetSpindleSpeed,
                  TurnSpindle, OrientSpindle, SelectTool, ChangeTool, SetToolNumber, Coolant,
-                 Override, DigitalOutput, AnalogOutput, WaitInput, UserCode, ProgramStop,
-                 PalletChange, ProgramEnd, Message, LogFile>;
+                 Override, DigitalOutput, AnalogOutput, SwitchKinematics, WaitInput, UserCode,
+                 ProgramStop, PalletChange, ProgramEnd, Message, LogFile>;
 
 struct Command {
   Action action;

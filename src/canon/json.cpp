@@ -246,6 +246,11 @@ struct Fields {
     o.number("value", c.value);
     o.boolean("with_motion", c.with_motion);
   }
+  void operator()(const SwitchKinematics& c) const {
+    name("switch_kinematics");
+    o.integer("model", c.model);
+    o.boolean("with_motion", c.with_motion);
+  }
   void operator()(const WaitInput& c) const {
     name("wait_input");
     o.integer("index", c.index);

@@ -316,7 +316,8 @@ struct Write {
     s.line(std::string(c.with_motion ? "SET_MOTION_OUTPUT_VALUE(" : "SET_AUX_OUTPUT_VALUE(") +
            std::to_string(c.index) + "," + fixed(c.value, 6) + ")");
   }
-  void operator()(const WaitInput&) const {}  // the reference prints nothing for these two
+  void operator()(const SwitchKinematics&) const {}  // a thing of the machine behind it
+  void operator()(const WaitInput&) const {}         // the reference prints nothing for these two
   void operator()(const UserCode&) const {}
   void operator()(const ProgramStop& c) const {
     s.line(c.optional ? "OPTIONAL_PROGRAM_STOP()" : "PROGRAM_STOP()");

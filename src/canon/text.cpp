@@ -154,6 +154,9 @@ struct ToText {
     return "analog_output " + std::to_string(c.index) + ' ' + tidy(c.value) +
            with_motion_text(c.with_motion);
   }
+  std::string operator()(const SwitchKinematics& c) const {
+    return "switch_kinematics " + std::to_string(c.model) + with_motion_text(c.with_motion);
+  }
   std::string operator()(const WaitInput& c) const {
     static constexpr const char* modes[] = {"immediate", "rise", "fall", "high", "low"};
     const bool known = c.mode >= 0 && c.mode < 5;

@@ -33,6 +33,11 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
                                   diagnostics);
   std::optional<semantics::TravelCheck> travel;
   if (job.machine && checks.limits) travel.emplace(*job.machine, job.start, diagnostics);
+  // Where the tip is in another kinematics is asked of the machine, whatever is checked.
+  Diagnostics not_told;
+  std::optional<semantics::TravelCheck> follower;
+  if (job.machine && !travel && job.machine->models().size() > 1)
+    follower.emplace(*job.machine, job.start, not_told);
   std::optional<linuxcnc::TravelCheck> axis_travel;
   if (has_axis_travel(job) && checks.limits)
     axis_travel.emplace(job.control->travel, options.start);
@@ -50,6 +55,9 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
       if (travel) travel->see(*command);
       if (axis_travel) axis_travel->see(*command, diagnostics);
     });
+    if (follower) follower->see(*command);
+    if ((travel || follower) && std::holds_alternative<canon::SwitchKinematics>(command->action))
+      interpreter.synchronise(travel ? travel->tip() : follower->tip());
     if (!checks.semantics) note_user_code(job, *command, diagnostics, not_run);
     if (const auto* probe = std::get_if<canon::Probe>(&command->action))
       interpreter.resume({.tip = probe->end, .tripped = false});

@@ -42,9 +42,23 @@ bool import_ini(Job& job, const ProgramArguments& arguments) {
   job.machine = *machine;
   job.machine_unchecked = (*imported)->unchecked;
   job.imported = std::move(*imported);
+  job.switches = job.imported;
   job.start = job.machine->home();
   job.inputs.push_back({"machine", arguments.machine, sha256(text.content())});
   return true;
+}
+
+void read_switches(Job& job, const ProgramArguments& arguments) {
+  if (arguments.ini.empty() || !job.control) return;
+  Diagnostics about_the_machine;  // which is the package and not this one
+  auto imported = linuxcnc::import_machine(arguments.ini, job.sources, about_the_machine);
+  if (!imported || !*imported || !(*imported)->switch_output) return;
+  job.switches = std::move(*imported);
+  const std::string& first = job.switches->models.front();
+  if (job.switches->models.size() > 1 && job.machine->channel() != first)
+    job.machine_unchecked.push_back("the set-up starts in the kinematics '" + first +
+                                    "', the machine in '" + job.machine->channel() +
+                                    "': name it with -m PACKAGE:" + first);
 }
 
 bool has_axis_travel(const Job& job) {

@@ -163,6 +163,11 @@ bool IdealPath::next(logbook::IdealPiece& out) {
   while (const auto command = interpreter_.next()) {
     if (const auto* probe = std::get_if<canon::Probe>(&command->action))
       interpreter_.resume({.tip = probe->end, .tripped = false});
+    if (std::holds_alternative<canon::SwitchKinematics>(command->action)) {
+      not_checked("the path from " + command->span.place() +
+                  " on, where the program switches the kinematics");
+      return false;
+    }
     state(*command);
     if (canon::is_motion(command->action)) return piece(*command, out);
   }

@@ -113,6 +113,7 @@ bool open_inputs(Job& job, const ProgramArguments& arguments, std::optional<doub
     job.machine = *machine;
     job.inputs.push_back({"machine", arguments.machine, hash_of_package(job.machine->folder())});
     job.start = job.machine->home();
+    read_switches(job, arguments);
   }
   std::string parameters = arguments.parameters;
   if (parameters.empty() && job.control) parameters = job.control->parameter_file;
@@ -150,6 +151,24 @@ bool open_inputs(Job& job, const ProgramArguments& arguments, std::optional<doub
   return out.errors() == 0;
 }
 
+// What a program can do to switch the kinematics. The analog output of a set-up counts for a
+// package too, whose channels are then those of the same name.
+interp::KinematicsSwitch switch_of(const Job& job) {
+  const auto& models = job.machine->models();
+  interp::KinematicsSwitch out = sim::kinematics_switch(*job.machine);
+  if (!job.switches) return out;
+  out.output = job.switches->switch_output;
+  for (const std::string& name : job.switches->models) {
+    const auto found = std::find_if(models.begin(), models.end(),
+                                    [&](const auto& model) { return model.channel == name; });
+    const bool only = models.empty() && job.imported && job.switches->models.size() == 1;
+    out.by_value.push_back(found != models.end() ? static_cast<int>(found - models.begin())
+                           : only                ? 0
+                                                 : -1);
+  }
+  return out;
+}
+
 interp::Options interpreter_options(const Job& job, const ProgramArguments& arguments,
                                     const SourceText& program) {
   interp::Options options;
@@ -164,6 +183,7 @@ interp::Options interpreter_options(const Job& job, const ProgramArguments& argu
     for (const Axis axis : all_axes)
       if (axes.has(axis) && (named.has(axis) || !job.imported)) options.axes.add(axis);
     if (const auto tip = job.machine->kinematics().forward(job.start, {})) options.start = *tip;
+    options.kinematics = switch_of(job);
   }
   const bool automatic = arguments.dialect == "auto";
   const bool named = !arguments.dialect.empty() && !automatic;

@@ -22,7 +22,9 @@ struct Job {
   std::shared_ptr<const machine::Machine> machine;  ///< null when none was named
   std::optional<linuxcnc::Setup> control;           ///< --ini
   std::optional<linuxcnc::MachineImport> imported;  ///< `machine` is that of a set-up
-  std::vector<std::string> machine_unchecked;       ///< of a machine of another format
+  /// How the programs of a set-up switch the kinematics; also when the machine is a package.
+  std::optional<linuxcnc::MachineImport> switches;
+  std::vector<std::string> machine_unchecked;  ///< of a machine of another format
   machine::JointVector start;
   tool::ToolTable tools;
   interp::ParameterFile parameters;
@@ -41,6 +43,8 @@ bool open_ini(Job& job, const ProgramArguments& arguments);
 /// The machine of a set-up (`FILE.ini`, `FILE.ini:CHANNEL`) into job.machine, which stays empty
 /// when the set-up names no kinematics; false with errors in job.diagnostics.
 bool import_ini(Job& job, const ProgramArguments& arguments);
+/// For a package that is run with a set-up: how the set-up's programs switch the kinematics.
+void read_switches(Job& job, const ProgramArguments& arguments);
 /// `FILE.urdf`, `FILE.urdf:LINK`: likewise.
 bool import_urdf(Job& job, const std::string& what);
 /// Has the set-up travel of axes that the machine's joints do not have?

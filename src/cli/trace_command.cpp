@@ -4,6 +4,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/job.h"
+#include "semantics/semantics.h"
 
 namespace aircut::cli {
 
@@ -39,6 +40,11 @@ int trace_command(const TraceArguments& a) {
   Diagnostics diagnostics;
   interp::Interpreter interpreter(**program, job.tools, job.parameters, options,
                                   sub_reader(job.sources), diagnostics);
+  // Tells where the tip is when a program switches the kinematics.
+  Diagnostics not_told;
+  std::optional<semantics::TravelCheck> follower;
+  if (job.machine && job.machine->models().size() > 1)
+    follower.emplace(*job.machine, job.start, not_told);
   canon::Rs274Writer writer(options.start_unit);
   std::string out;
   constexpr std::size_t flush_at = 1 << 16;
@@ -56,6 +62,9 @@ int trace_command(const TraceArguments& a) {
         out += writer.write(*command);
         break;
     }
+    if (follower) follower->see(*command);
+    if (follower && std::holds_alternative<canon::SwitchKinematics>(command->action))
+      interpreter.synchronise(follower->tip());
     if (const auto* probe = std::get_if<canon::Probe>(&command->action))
       interpreter.resume({.tip = probe->end, .tripped = false});
     note_user_code(job, *command, diagnostics, unchecked);

@@ -119,16 +119,45 @@ void BlockExecutor::perform_from(std::size_t first) {
                                               : remaps.of(item.letter);
     if (!remapped)
       perform(item);
+    else if (remapped->remap->model)
+      switch_kinematics(*item.rule, run_, *remapped->remap->model);
     else if (remapped->remap->python.empty())
       return call_remap(i);
     else {
       list_remap(run_, *remapped->remap);
       if (!item.rule || remapped->builtin) perform({item.phase, remapped->builtin, item.letter});
     }
+    if (run_.switch_to_ && run_.ok()) return put_line_aside(first, i);
   }
   if (!run_.ok()) return;
   for (std::size_t i = first; i < count_; ++i)
     if (items_[i].rule) ++run_.session.executed[CodeTable::slot(*items_[i].rule)];
+}
+
+// What follows item `at` of the line.
+std::unique_ptr<SuspendedBlock> BlockExecutor::rest_behind(std::size_t at) const {
+  if (at + 1 >= count_) return nullptr;
+  auto rest = std::make_unique<SuspendedBlock>();
+  rest->block = block_;
+  rest->items = items_;
+  rest->count = count_;
+  rest->next = at + 1;
+  rest->motion_rule = run_.motion_rule;
+  rest->feed_given = run_.feed_given;
+  rest->mode_only = mode_only_;
+  return rest;
+}
+
+// The machine's kinematics changes behind item `at`; the rest needs the position in the new one.
+void BlockExecutor::put_line_aside(std::size_t first, std::size_t at) {
+  for (std::size_t i = first; i <= at; ++i)
+    if (items_[i].rule) ++run_.session.executed[CodeTable::slot(*items_[i].rule)];
+  run_.state.kinematics = run_.switch_to_->model;
+  run_.emit(*run_.switch_to_);
+  run_.flow.kind = FlowRequest::Kind::kinematics;
+  run_.remap = std::make_unique<RemapCall>();
+  // Item 0 as what follows item "-1": unsigned arithmetic wraps as it should.
+  run_.remap->rest = rest_behind(run_.switch_again_ ? at - 1 : at);
 }
 
 // The sub runs once what stands before its code on the line is done and kept.
@@ -139,17 +168,7 @@ void BlockExecutor::call_remap(std::size_t at) {
       item.rule ? run_.session.remaps.of(item.rule) : run_.session.remaps.of(item.letter);
   call->place = item.rule ? run_.place(*item.rule) : run_.place(item.letter);
   if (!remap_arguments(run_, *call)) return;
-  if (at + 1 < count_) {
-    auto rest = std::make_unique<SuspendedBlock>();
-    rest->block = block_;
-    rest->items = items_;
-    rest->count = count_;
-    rest->next = at + 1;
-    rest->motion_rule = run_.motion_rule;
-    rest->feed_given = run_.feed_given;
-    rest->mode_only = mode_only_;
-    call->rest = std::move(rest);
-  }
+  call->rest = rest_behind(at);
   run_.flow.kind = FlowRequest::Kind::remap;
   run_.remap = std::move(call);
 }

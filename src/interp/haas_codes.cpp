@@ -109,7 +109,7 @@ constexpr CodeRule mill[] = {
     {'G', 1430, G::free,         P::non_modal,     own,    "",      nullptr},
     {'G', 1740, G::free,         P::non_modal,     own,    "",      nullptr},
     {'G', 1841, G::free,         P::non_modal,     own,    "",      nullptr},
-    {'G', 2340, G::free,         P::non_modal,     own,    "",      nullptr},
+    {'G', 2340, G::length_offset, P::length_offset, none,  "H",     fanuc_length_offset},
     {'G', 2530, G::free,         P::non_modal,     own,    "",      nullptr},
     {'G', 2540, G::free,         P::non_modal,     own,    "",      nullptr},
     {'G', 2550, G::free,         P::non_modal,     own,    "",      nullptr},

@@ -103,8 +103,9 @@ class Interpreter::Impl final : public Site, private LiveValues {
 
   canon::Command* next();
   void resume(const ProbeHit& hit);
+  void synchronise(const AxisValues& tip);
   ParameterFile parameters() const;
-  Statistics statistics() const { return statistics_; }
+  Statistics statistics() const;
   std::vector<CodeCount> code_counts() const;
 
   const SourceSpan& span() override;
@@ -211,6 +212,8 @@ class Interpreter::Impl final : public Site, private LiveValues {
   void call_remap(RemapCall& call);
   void resume_line(std::unique_ptr<SuspendedBlock> rest);
   bool remaps_are_sound();
+  void start_kinematics();
+  void tell_kinematics();
   void run_startup_line();
   ProgramFile* find_known_sub(const std::string& name);
   ProgramFile* find_sub(const std::string& name, const Block& block, Place place);
@@ -274,6 +277,7 @@ class Interpreter::Impl final : public Site, private LiveValues {
   std::unique_ptr<ContourReading> finished_reading_;  ///< messages still refer to it
   Block* block_ = nullptr;                            ///< in execution
   std::unique_ptr<SuspendedBlock> resumed_;  ///< the line that goes on behind a remapped code
+  std::unique_ptr<SuspendedBlock> waiting_;  ///< a line that waits for synchronise()
   SourceSpan span_;
   bool span_valid_ = false;
   bool done_ = false;
@@ -333,6 +337,8 @@ class BlockExecutor {
   bool ends_data() const;
   void perform_from(std::size_t first);
   void perform(const BlockItem& item);
+  std::unique_ptr<SuspendedBlock> rest_behind(std::size_t at) const;
+  void put_line_aside(std::size_t first, std::size_t at);
   void call_remap(std::size_t at);
   void leave_cycle(const CodeRule& rule);
   void after_motion(const CodeRule& rule);

@@ -54,10 +54,20 @@ struct Remap {
   /// Words that the sub gets as #<letter>: capital = required, small = if given; `>` `^`: the feed,
   /// the speed, which must be above 0; `n` `N`: the line's number; `@`: as #1, #2 … instead.
   std::string argspec;
-  std::string ngc;     ///< sub and file that is called; empty: none
-  std::string python;  ///< what would run as a program of the control: listed, never run
-  std::string name;    ///< as messages call it: `M400`, `G88.1`, `T`
-  SourceSpan span;     ///< where it is said
+  std::string ngc;           ///< sub and file that is called; empty: none
+  std::optional<int> model;  ///< instead: the machine's kinematics of that number comes into force
+  std::string python;        ///< what would run as a program of the control: listed, never run
+  std::string name;          ///< as messages call it: `M400`, `G88.1`, `T`
+  SourceSpan span;           ///< where it is said
+};
+
+/// Kinematics among which a program can switch on this machine, by number.
+struct KinematicsSwitch {
+  int start = 0;                       ///< in force at the start
+  std::optional<int> output;           ///< LinuxCNC: M68 E with this number switches …
+  std::vector<int> by_value;           ///< … to this one, by Q; -1: one that is not known
+  std::map<int, int> codes;            ///< M code → number
+  std::optional<int> tcp_on, tcp_off;  ///< Fanuc, Haas: of G43.4 or G234, and of G49
 };
 
 struct Options {
@@ -87,6 +97,7 @@ struct Options {
   AxisSet wrapped;   ///< rotary axes that G90 turns the short way, by the sign of the word
   AxisSet indexers;  ///< rotary axes that are clamped: they move alone, with G0
   std::vector<Remap> remaps;
+  KinematicsSwitch kinematics;
   bool tool_change_at_g30 = false;        ///< M6 goes to the G30 position first
   bool tool_change_quill_up = false;      ///< M6 lifts Z to machine 0 first
   bool tool_change_with_spindle = false;  ///< M6 leaves the spindle turning
@@ -137,6 +148,10 @@ class Interpreter {
   /// Result of the Probe command that next() handed out last.
   void resume(const ProbeHit& hit);
 
+  /// Where the tip is after the SwitchKinematics command that next() handed out last. Without this
+  /// call the position stays what it was in the kinematics before.
+  void synchronise(const AxisValues& tip);
+
   /// Parameters as they are now, for the var file.
   ParameterFile parameters() const;
 
@@ -145,6 +160,7 @@ class Interpreter {
     std::uint64_t blocks = 0;  ///< blocks executed
     bool ended = false;        ///< M2, M30 or `%` was reached
     bool limit_reached = false;
+    bool input_read = false;  ///< #5399, the result of M66, was looked at
   };
   Statistics statistics() const;
 

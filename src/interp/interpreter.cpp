@@ -47,6 +47,7 @@ Interpreter::Interpreter(const SourceText& program, const tool::ToolTable& tools
 Interpreter::~Interpreter() = default;
 canon::Command* Interpreter::next() { return impl_->next(); }
 void Interpreter::resume(const ProbeHit& hit) { impl_->resume(hit); }
+void Interpreter::synchronise(const AxisValues& tip) { impl_->synchronise(tip); }
 ParameterFile Interpreter::parameters() const { return impl_->parameters(); }
 Interpreter::Statistics Interpreter::statistics() const { return impl_->statistics(); }
 
@@ -159,6 +160,7 @@ bool Interpreter::Impl::is_percent_line(const ProgramFile& file, std::string_vie
 }
 
 void Interpreter::Impl::step() {
+  if (waiting_) return resume_line(std::move(waiting_));
   if (contour_frame_ >= 0 && leave_contour_range()) return;
   const Frame& frame = frames_.back();
   if (frame.at >= frame.file->text->content().size()) return end_of_file();
@@ -427,6 +429,9 @@ void Interpreter::Impl::finish_words(Block& block, BlockRun& run, std::size_t fi
     case FlowRequest::Kind::remap:
       call_remap(*run.remap);
       break;
+    case FlowRequest::Kind::kinematics:
+      waiting_ = std::move(run.remap->rest);
+      break;
   }
 }
 
@@ -446,6 +451,17 @@ void Interpreter::Impl::resume(const ProbeHit& hit) {
                       work[axis] / (is_rotary(axis) ? radian_per_degree : state_.unit_mm()));
   parameters_.write(number::probe_tripped, hit.tripped ? 1 : 0);
   parameters_.commit();
+}
+
+Interpreter::Statistics Interpreter::Impl::statistics() const {
+  Statistics out = statistics_;
+  out.input_read = parameters_.input_was_read();
+  return out;
+}
+
+void Interpreter::Impl::synchronise(const AxisValues& tip) {
+  state_.tip = tip;
+  tell_kinematics();
 }
 
 // What a control keeps over a restart: home positions, G92, the nine work systems, and any user

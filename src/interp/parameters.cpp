@@ -119,7 +119,14 @@ std::optional<double> Parameters::read_high(int n, Place place, std::optional<Fa
     return std::nullopt;
   }
   if (is_live(n)) return live_.numbered(n, place, fault);
+  input_read_ = input_read_ || n == number::input_result;
   return values_[static_cast<std::size_t>(n)];
+}
+
+void Parameters::write_pin(std::string_view name, double value) {
+  Name& pin = names_[static_cast<std::size_t>(intern(name))];
+  pin.defined = true;
+  pin.value = value;
 }
 
 void Parameters::write(int n, double value) {

@@ -35,6 +35,9 @@ constexpr int debug_enabled = 5599;
 constexpr int last = 5601;
 }  // namespace number
 
+/// The pin that tells the number of the kinematics in force.
+constexpr std::string_view kinematics_pin = "_hal[motion.switchkins-type]";
+
 /// Values that follow from the state of the machine and not from a setting.
 class LiveValues {
  public:
@@ -105,6 +108,11 @@ class Parameters {
   void enter_macro(const std::vector<double>& locals);
   void leave();
 
+  /// The result of M66 was read at some time.
+  bool input_was_read() const { return input_read_; }
+  /// Of a pin that the machine itself knows.
+  void write_pin(std::string_view name, double value);
+
   // ---- transactions
   void commit() { journal_.clear(); }
   void roll_back();
@@ -136,6 +144,7 @@ class Parameters {
 
   const LiveValues& live_;
   bool macro_b_ = false;
+  mutable bool input_read_ = false;
   int first_computed_ = number::absolute_position;  ///< below are stored values
   std::map<std::string, double> ini_;
   bool hal_pins_ = true;

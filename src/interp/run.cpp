@@ -135,4 +135,9 @@ void BlockRun::roll_back_tools() {
   old_tools_.clear();
 }
 
+void BlockRun::switch_kinematics(const canon::SwitchKinematics& to, bool again) {
+  switch_to_ = to;
+  switch_again_ = again;
+}
+
 }  // namespace aircut::interp

@@ -52,7 +52,8 @@ struct FlowRequest {
     modal_call,  ///< G66, G66.1
     block_call,  ///< the block is handed to the macro of G66.1
     modal_end,   ///< G67
-    remap        ///< the sub of a remapped code
+    remap,       ///< the sub of a remapped code
+    kinematics   ///< the machine's other kinematics: the rest of the line waits for the position
   } kind = Kind::none;
   std::int64_t label = 0;             ///< P: program, or block of M97
   std::uint64_t repeats = 1;          ///< L
@@ -217,6 +218,10 @@ class BlockRun {
   /// Whether the fault is that of the corner, and not of the block.
   bool corner_failed() const { return corner_failed_; }
 
+  /// Asks for a kinematics of the machine. What is left of the line is done in it; with `again` by
+  /// this code too, from its beginning.
+  void switch_kinematics(const canon::SwitchKinematics& to, bool again = false);
+
   // ---- offsets and position, kept in step
   /// Emits the three commands of the work system in force.
   void emit_work_offset();
@@ -251,6 +256,8 @@ class BlockRun {
   std::optional<OffsetMemory> old_offsets_;
   bool axis_words_ = false;
   bool corner_failed_ = false;
+  std::optional<canon::SwitchKinematics> switch_to_;
+  bool switch_again_ = false;
   const canon::Command* speaks_for_ = nullptr;
 };
 

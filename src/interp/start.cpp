@@ -41,6 +41,7 @@ Interpreter::Impl::Impl(const SourceText& program, const tool::ToolTable& tools,
   options_.spindles = std::clamp(options_.spindles, 1, max_spindles);
   frames_.emplace_back();
   frames_.back().file = &file_for(program);
+  start_kinematics();
   session_.remaps.fill(options_.remaps, table_);
   for (const Axis axis : all_axes)
     if ((!options_.axes.empty() && !options_.axes.has(axis)) || options_.wrapped.has(axis) ||
@@ -92,6 +93,33 @@ void Interpreter::Impl::start(const ParameterFile& file) {
   emit_start_state();
   if (!remaps_are_sound()) return stop();
   if (options_.startup) run_startup_line();
+}
+
+// The machine's own codes for its kinematics are remaps; those of the set-up come first.
+void Interpreter::Impl::start_kinematics() {
+  const KinematicsSwitch& models = options_.kinematics;
+  state_.kinematics = models.start;
+  for (const auto& [code, model] : models.codes) {
+    const std::string name = "M" + std::to_string(code);
+    const auto same = [&](const Remap& remap) { return remap.name == name; };
+    if (std::any_of(options_.remaps.begin(), options_.remaps.end(), same)) continue;
+    Remap remap;
+    remap.code = code;
+    remap.modal_group = 10;
+    remap.model = model;
+    remap.name = name;
+    options_.remaps.push_back(std::move(remap));
+  }
+  tell_kinematics();
+}
+
+// motion.switchkins-type has the number by which the control knows the kinematics in force.
+void Interpreter::Impl::tell_kinematics() {
+  if (!options_.kinematics.output) return;
+  const std::vector<int>& models = options_.kinematics.by_value;
+  const auto at = std::find(models.begin(), models.end(), state_.kinematics);
+  if (at != models.end())
+    parameters_.write_pin(kinematics_pin, static_cast<double>(at - models.begin()));
 }
 
 // One line that the machine's set-up gives, executed as if it stood before the program.

@@ -102,6 +102,9 @@ struct ModalState {
   int offset_number = -1;         ///< of the last D word, or of a lathe's T word; -1: none yet
   std::optional<AxisValues> way_point;  ///< intermediate point of G28, for G29: machine coordinates
   bool data_setting = false;            ///< between G10 L50 and G11
+  bool tcp = false;                     ///< between G43.4 (G234) and G49
+
+  int kinematics = 0;  ///< number of the machine's kinematics in force
 
   canon::Unit unit = canon::Unit::millimetre;
   canon::Plane plane = canon::Plane::xy;

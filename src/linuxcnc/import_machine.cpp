@@ -338,11 +338,20 @@ void ModuleImport::tell_unused() {
 // net … motion.analog-out-03 => motion.switchkins-type: M68 E3 Q1 takes the second model.
 void ModuleImport::switching() {
   constexpr std::string_view output = "motion.analog-out-";
-  const auto from = hal_.driver("motion.switchkins-type");
-  if (!from || !from->starts_with(output)) return;
-  constexpr double last = 63;
-  const auto number = parse_number(from->substr(output.size()));
-  if (number && *number >= 0 && *number <= last) result_.switch_output = static_cast<int>(*number);
+  const std::string pin = "motion.switchkins-type";
+  for (const package::DriveText& drive : text_.drives()) result_.models.push_back(drive.name);
+  const auto from = hal_.driver(pin);
+  if (from && from->starts_with(output)) {
+    constexpr double last = 63;
+    const auto number = parse_number(from->substr(output.size()));
+    if (number && *number >= 0 && *number <= last)
+      result_.switch_output = static_cast<int>(*number);
+  }
+  const bool fed = from || !hal_.pins(pin).empty();
+  if (fed && !result_.switch_output)
+    result_.unchecked.push_back(pin +
+                                ", which switches the kinematics, is not driven by an "
+                                "analog output of the program");
 }
 
 void ModuleImport::speed() {

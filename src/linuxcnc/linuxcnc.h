@@ -49,6 +49,7 @@ struct MachineImport {
   bool axes_are_joints = false;        ///< so the joints' limits hold those of the axes
   /// The analog output (M67, M68) that switches the kinematics.
   std::optional<int> switch_output;
+  std::vector<std::string> models;  ///< channels of `toml` in the order of its numbers
 };
 /// Nothing when the set-up names no kinematics; errors are in `out`.
 Expected<std::optional<MachineImport>> import_machine(const std::string& path, SourceMap& sources,
@@ -68,6 +69,7 @@ class TravelCheck {
 
   std::map<Axis, Travel> travel_;
   AxisValues tip_, length_offset_;
+  bool tip_known_ = true;
   std::set<std::tuple<const SourceText*, std::uint64_t, Axis, bool>> told_;
 };
 

@@ -35,8 +35,12 @@ void TravelCheck::see(const canon::Command& command, Diagnostics& out) {
     length_offset_ = offset->offset;
     return;
   }
+  // In other kinematics the tip is elsewhere, and its axes need not be these.
+  if (std::holds_alternative<canon::SwitchKinematics>(command.action)) tip_known_ = false;
   if (!canon::is_motion(command.action)) return;
-  if (const auto* arc = std::get_if<canon::ArcFeed>(&command.action)) bulges(*arc, command, out);
+  if (const auto* arc = std::get_if<canon::ArcFeed>(&command.action); arc && tip_known_)
+    bulges(*arc, command, out);
+  tip_known_ = true;
   const AxisValues end = canon::end_of(command.action, tip_);
   if (const auto* tap = std::get_if<canon::SyncFeed>(&command.action); tap && tap->rigid_tap)
     point(tap->end, command, out);

@@ -31,6 +31,7 @@ enum Flag : unsigned {
   jerk_limited = 32,
   locked_to_spindle = 64,
   warning = 128,
+  other_tip = 256,
 };
 
 unsigned flags_of(const plan::Segment& segment) {
@@ -179,6 +180,8 @@ struct CsvJointLog::Impl {
   std::uint64_t written = 0;  ///< rows
   double revolutions = 0;     ///< of the spindle at the end of the steps so far
   double end_time = 0;
+  const machine::Kinematics* last_kinematics = nullptr;  ///< of the last row
+  AxisValues last_offset;
   std::optional<AxisValues> start_pose;
   bool stepped = false;
   plan::Segment rest;  ///< of the last step, without its path and time law
@@ -201,6 +204,7 @@ void CsvJointLog::Impl::step(const sim::Step& step) {
   rest.command.block = segment.command.block;
   rest.tool = tool_after(segment);
   rest.tool_offset = segment.tool_offset;
+  rest.kinematics = segment.kinematics;
   rest.spindle_rpm = segment.spindle_rpm;
   rest.failure = segment.failure;
   rest.t_start = t1;
@@ -226,6 +230,12 @@ void CsvJointLog::Impl::row(const plan::Segment& segment, const motion::JointSta
                             double t) {
   const double feed_scale = counts_degrees(segment) ? degrees : 1;
   unsigned flags = flags_of(segment);
+  // The tip is where another length or another kinematics has it: the joints have not jumped.
+  if (written > 0 &&
+      (segment.kinematics != last_kinematics || !(segment.tool_offset == last_offset)))
+    flags |= other_tip;
+  last_kinematics = segment.kinematics;
+  last_offset = segment.tool_offset;
   append_shortest(rows, t);
   rows += ',';
   rows += std::to_string(segment.command.span.line);
@@ -246,7 +256,8 @@ void CsvJointLog::Impl::row(const plan::Segment& segment, const motion::JointSta
   joints(state.v);
   joints(state.a);
   // What the joints really reach, not what was asked for.
-  auto pose = machine.kinematics().forward(state.q, segment.tool_offset);
+  auto pose =
+      plan::kinematics_of(segment, machine.kinematics()).forward(state.q, segment.tool_offset);
   if (!pose) flags |= warning;
   const AxisValues& tip = pose ? *pose : state.tip;
   for (const Axis axis : all_axes) number(tip[axis] * (is_rotary(axis) ? degrees : 1));

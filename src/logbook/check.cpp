@@ -91,6 +91,8 @@ void Judge::differences() {
 
 void Judge::feed(const Row& a, const Row& b) {
   if (!(a.feed_command() > 0) || !(b.feed_command() > 0)) return;
+  constexpr unsigned other_tip = 256;  // by a new length or kinematics: no way that was gone
+  if ((b.flags() & other_tip) != 0) return;
   const auto way = [&](std::size_t i) {
     return std::hypot(b.tip(i) - a.tip(i), b.tip(i + 1) - a.tip(i + 1),
                       b.tip(i + 2) - a.tip(i + 2));

@@ -48,6 +48,12 @@ JointVector Machine::home() const {
   return joints;
 }
 
+int Machine::model() const {
+  for (std::size_t i = 0; i < models_.size(); ++i)
+    if (models_[i].channel == channel_) return static_cast<int>(i);
+  return 0;
+}
+
 std::optional<LinkId> Machine::find_link(const std::string& name) const {
   for (std::size_t i = 0; i < links_.size(); ++i)
     if (links_[i].name == name) return LinkId{static_cast<int>(i)};

@@ -215,10 +215,19 @@ struct ToolChange {
   double seconds = 0;
 };
 
-enum class UserCodeKind : unsigned char { ignore, time, program, unknown };
+enum class UserCodeKind : unsigned char { ignore, time, program, unknown, kinematics };
 struct UserCodeRule {
   UserCodeKind kind = UserCodeKind::unknown;
   double seconds = 0;
+  int model = 0;  ///< kind kinematics: the channel, by number
+};
+
+/// One of the kinematics among which a program can switch: the channel of that number. The joints
+/// and the tool are those of the driven channel; what its X Y Z mean is its own.
+struct KinematicsModel {
+  std::string channel;
+  std::shared_ptr<const Kinematics> kinematics;  ///< null: can't be switched to
+  std::string reason;                            ///< why not, with its subject
 };
 
 /// Bodies that belong together and are placed by a setup.
@@ -274,6 +283,13 @@ class Machine {
   /// the axes that move it; empty when there is just one. One is driven, `channel()`.
   const std::vector<std::string>& channels() const { return channels_; }
   const std::string& channel() const { return channel_; }
+  /// Of all channels, in their order; empty when there is just one.
+  const std::vector<KinematicsModel>& models() const { return models_; }
+  /// The driven channel's place among them.
+  int model() const;
+  /// Channels that tool centre point control (G43.4, G234) and its end (G49) switch to.
+  std::optional<int> tcp_on() const { return tcp_on_; }
+  std::optional<int> tcp_off() const { return tcp_off_; }
   const std::vector<Link>& links() const { return links_; }
   /// All couples, parents before children.
   const std::vector<Joint>& tree() const { return tree_; }
@@ -306,6 +322,8 @@ class Machine {
   std::string folder_;
   std::vector<std::string> channels_;
   std::string channel_;
+  std::vector<KinematicsModel> models_;
+  std::optional<int> tcp_on_, tcp_off_;
   std::vector<Link> links_{Link{"bed"}};
   std::vector<Joint> tree_;
   std::vector<int> driven_;  ///< index into tree_ by JointId

@@ -57,7 +57,9 @@ void read_kinematics(config::Table& top, ReadState& state) {
                                              : RapidMode::coordinated;
   if (table->has("tcp")) {
     table->know("tcp");
-    table->error("tcp", "'tcp' is not supported by this version");
+    table->error("tcp",
+                 "'tcp' is not supported by this version; give each kinematics a [[channel]] and "
+                 "name both in [tcp]");
   }
   const std::vector<std::string> types = kinematics_types();
   const std::string type = table->required_text("type");
@@ -216,6 +218,30 @@ std::vector<Drive> read_channels(config::Table& top, ReadState& state) {
   return drives;
 }
 
+// Why a program can't go over from the driven channel to another one; empty: it can.
+std::string cannot_switch(const Drive& from, const Drive& to) {
+  if (!from.kinematics || !to.kinematics) return "the channel '" + to.name + "' has errors";
+  const std::string what = "the channel '" + to.name + "' ";
+  if (from.driven != to.driven) return what + "drives other axes than '" + from.name + "'";
+  if (from.kinematics->axes() != to.kinematics->axes())
+    return what + "has other words than '" + from.name + "'";
+  if (from.kinematics->passive_names() != to.kinematics->passive_names())
+    return what + "has other passive parts than '" + from.name + "'";
+  const Spindle &a = from.spindle, &b = to.spindle;
+  if (a.link != b.link || !a.gauge.isApprox(b.gauge) || !a.R_LF.isApprox(b.R_LF))
+    return what + "has another tool than '" + from.name + "'";
+  if (from.rapid != to.rapid) return what + "has rapids of another kind than '" + from.name + "'";
+  return {};
+}
+
+void list_models(const std::vector<Drive>& drives, const Drive& driven, Machine& machine) {
+  for (const Drive& to : drives) {
+    KinematicsModel model{to.name, nullptr, cannot_switch(driven, to)};
+    if (model.reason.empty()) model.kinematics = to.kinematics;
+    machine.models_.push_back(std::move(model));
+  }
+}
+
 }  // namespace
 
 void Drive::put_on(Machine& machine) const {
@@ -256,6 +282,7 @@ std::vector<Drive> read_drives(config::Table& top, const std::string& channel, R
     if (wanted == std::to_string(i)) found = drives.begin() + static_cast<long>(i);
   if (found != drives.end()) {
     found->put_on(machine);
+    list_models(drives, *found, machine);
     return drives;
   }
   std::string known;

@@ -33,6 +33,31 @@ void read_tool_change(config::Table& top, Machine& machine) {
   }
 }
 
+// The number of the channel that the key names, which a program may switch to.
+std::optional<int> read_model(config::Table& table, const std::string& key,
+                              const Machine& machine) {
+  const std::string name = table.required_text(key);
+  if (name.empty()) return std::nullopt;  // said already
+  const auto& models = machine.models();
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    if (models[i].channel != name) continue;
+    if (models[i].kinematics) return static_cast<int>(i);
+    // Seen from another channel it may be possible; this one then has no use for the code.
+    return std::nullopt;
+  }
+  table.error(key, "there is no channel '" + printable(name) + "' to switch to." +
+                       did_you_mean(name, machine.channels()));
+  return std::nullopt;
+}
+
+// Tool centre point control: [tcp] on = "tcp", off = "joints".
+void read_tcp(config::Table& top, Machine& machine) {
+  auto table = top.table("tcp");
+  if (!table) return;
+  machine.tcp_on_ = read_model(*table, "on", machine);
+  machine.tcp_off_ = read_model(*table, "off", machine);
+}
+
 // M-codes of the machine builder: [mcodes] M110 = { kind = "ignore" }.
 void read_user_codes(config::Table& top, Machine& machine) {
   auto table = top.table("mcodes");
@@ -47,8 +72,17 @@ void read_user_codes(config::Table& top, Machine& machine) {
     if (!rule) continue;
     UserCodeRule out;
     const std::string kind =
-        rule->choice("kind", {"ignore", "time", "program", "unknown"}, "unknown");
+        rule->choice("kind", {"ignore", "time", "kinematics", "program", "unknown"}, "unknown");
     if (kind == "ignore") out.kind = UserCodeKind::ignore;
+    if (kind == "kinematics") {
+      if (*code < 100 || *code > 999)
+        table->error(key, "a code that switches the kinematics is one of M100 to M999");
+      // A code that this channel can't follow stays unknown.
+      if (const auto model = read_model(*rule, "channel", machine)) {
+        out.kind = UserCodeKind::kinematics;
+        out.model = *model;
+      }
+    }
     if (kind == "time") {
       out.kind = UserCodeKind::time;
       if (!rule->has("time")) rule->error("time", "'time' is missing: the seconds that it takes");
@@ -197,6 +231,7 @@ Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& tex
   read_collision(top, *machine, state.unit_mm);
   read_tool_change(top, *machine);
   read_user_codes(top, *machine);
+  read_tcp(top, *machine);
   read_files(top, state);
 
   Diagnostics problems = reader.finish();

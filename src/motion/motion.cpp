@@ -21,14 +21,16 @@ constexpr int steps = 8;  // of the anchors: 45° of a full turn
 
 JointMotion::JointMotion(const machine::Machine& machine, const plan::Segment& segment,
                          JointVector near)
-    : machine_(&machine), segment_(&segment) {
+    : machine_(&machine),
+      kinematics_(&plan::kinematics_of(segment, machine.kinematics())),
+      segment_(&segment) {
   anchors_.push_back(std::move(near));
   const double length = plan::length(segment.path);
   if (!(length > 0)) return;
   anchors_.reserve(steps + 1);
   for (int i = 1; i <= steps; ++i) {
     const AxisValues tip = plan::evaluate(segment.path, length * i / steps).p;
-    auto q = machine.kinematics().inverse(Target{tip, segment.tool_offset}, anchors_.back());
+    auto q = kinematics_->inverse(Target{tip, segment.tool_offset}, anchors_.back());
     // The planner made sure that this can't be; at() will tell, should it be so.
     anchors_.push_back(q ? std::move(*q) : anchors_.back());
   }
@@ -49,12 +51,17 @@ tl::expected<JointVector, ReachError> JointMotion::at(double t) const {
 
 tl::expected<JointVector, ReachError> JointMotion::at_path(double s) const {
   const AxisValues tip = plan::evaluate(segment_->path, s).p;
-  return machine_->kinematics().inverse(Target{tip, segment_->tool_offset}, near_at(s));
+  return kinematics_->inverse(Target{tip, segment_->tool_offset}, near_at(s));
 }
 
 AxisValues JointMotion::tip_at(double t) const {
   const double s = segment_->profile.at(t - segment_->t_start).s;
   return plan::evaluate(segment_->path, s).p;
+}
+
+AxisValues JointMotion::tip_on_work(const JointVector& joints, const AxisValues& tip) const {
+  if (!segment_->kinematics) return tip;
+  return machine_->kinematics().forward(joints, segment_->tool_offset).value_or(tip);
 }
 
 tl::expected<JointState, ReachError> JointMotion::state_at(double t) const {
@@ -65,13 +72,13 @@ tl::expected<JointState, ReachError> JointMotion::state_at(double t) const {
   out.tip = p.p;
   out.s = s;
   if (v == 0 && a == 0) {
-    auto q = machine_->kinematics().inverse(target, near_at(s));
+    auto q = kinematics_->inverse(target, near_at(s));
     if (!q) return unexpected(q.error());
     out.q = std::move(*q);
     out.v = out.a = JointVector::Zero(out.q.size());
     return out;
   }
-  auto joint = plan::joint_point(machine_->kinematics(), target, p.d, p.dd, near_at(s));
+  auto joint = plan::joint_point(*kinematics_, target, p.d, p.dd, near_at(s));
   if (!joint) return unexpected(joint.error());
   out.q = std::move(joint->q);
   out.v = v * joint->dq;
@@ -89,7 +96,7 @@ bool JointMotion::travel_bound(double ta, double tb, std::span<double> travel) c
   machine::TipInterval tip = plan::bounds(segment_->path, s0, s1);
   tip.tool_offset = segment_->tool_offset;
   tip.near = near_at(s0);
-  return machine_->kinematics().travel_bound(tip, travel);
+  return kinematics_->travel_bound(tip, travel);
 }
 
 }  // namespace aircut::motion

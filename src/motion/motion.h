@@ -40,12 +40,16 @@ class JointMotion {
   /// Joints, speeds, accelerations.
   tl::expected<JointState, machine::ReachError> state_at(double t) const;
   AxisValues tip_at(double t) const;
+  /// Where the machine's own kinematics has a commanded tip of this segment, which may be in those
+  /// of another kinematics: for what is drawn on the work.
+  AxisValues tip_on_work(const JointVector& joints, const AxisValues& tip) const;
   /// Upper bound of the way of every driven joint, then of every passive value, in [ta, tb];
   /// false when no finite bound is known. `travel` has travel_count() elements or more.
   bool travel_bound(double ta, double tb, std::span<double> travel) const;
 
  private:
   const machine::Machine* machine_;
+  const machine::Kinematics* kinematics_;
   const plan::Segment* segment_;
   JointVector near_at(double s) const;
 

@@ -60,6 +60,7 @@ class MachineText {
   std::string platform(const std::string& angles);
   void body(const BodyText& body);
   void drive(DriveText drive) { drives_.push_back(std::move(drive)); }
+  const std::vector<DriveText>& drives() const { return drives_; }
   void spindle_speed(double low, double high) { rpm_ = {low, high}; }
   std::string text() const;
 

@@ -43,7 +43,8 @@ int Replay::pieces_between(const plan::Segment& segment, const plan::ProfileKnot
     pieces = std::max(pieces, way / plan::length(segment.path) * std::abs(arc->angle) / chord);
   }
   constexpr double straight = 2;  // mm
-  if (machine_->kinematics().type() != "identity") pieces = std::max(pieces, way / straight);
+  if (segment.kinematics || machine_->kinematics().type() != "identity")
+    pieces = std::max(pieces, way / straight);
   return static_cast<int>(std::clamp(std::ceil(pieces), 1.0, 1000.0));
 }
 
@@ -93,7 +94,8 @@ void Replay::on_step(const sim::Step& step) {
       const auto state = step.motion.state_at(key.t);
       if (!state) continue;  // the run tells why
       key.joints = state->q;
-      key.tip = Vec3(state->tip[Axis::x], state->tip[Axis::y], state->tip[Axis::z]);
+      const AxisValues tip = step.motion.tip_on_work(state->q, state->tip);
+      key.tip = Vec3(tip[Axis::x], tip[Axis::y], tip[Axis::z]);
       key.feed = state->path_speed;
       key.rapid = is_rapid(segment);
       add(key);

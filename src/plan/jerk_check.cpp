@@ -86,8 +86,8 @@ void LogSamples::pass(const Segment& segment, double clock) {
   for (; number * period_ < end; ++number) {
     if (number <= past_.back().number) continue;
     const double s = segment.profile.at(std::max(number * period_ - clock, 0.0)).s;
-    auto q =
-        kinematics_.inverse({evaluate(segment.path, s).p, segment.tool_offset}, past_.back().q);
+    auto q = kinematics_of(segment, kinematics_)
+                 .inverse({evaluate(segment.path, s).p, segment.tool_offset}, past_.back().q);
     past_.push_back({number, q ? std::move(*q) : past_.back().q});
     if (past_.size() > 4) past_.pop_front();
   }
@@ -116,8 +116,8 @@ class LogSamples::Reader {
     while (item_ + 1 < ride_.items.size() && ride_.items[item_].end() <= x) ++item_;
     const WayItem& item = ride_.items[item_];
     const double s = std::clamp((x - item.begin) / item.stretch, 0.0, item.grid.length());
-    auto q = samples_.kinematics_.inverse(
-        {evaluate(item.segment.path, s).p, item.segment.tool_offset}, near_);
+    auto q = kinematics_of(item.segment, samples_.kinematics_)
+                 .inverse({evaluate(item.segment.path, s).p, item.segment.tool_offset}, near_);
     if (!q) return std::nullopt;
     near_ = *q;
     return near_;

@@ -174,10 +174,18 @@ struct Segment {
   /// Why a joint passes its limit of acceleration or jerk here; empty = none does.
   std::string limit_problem;
   std::optional<Failure> failure;  ///< the run ends here
+  /// In force, where a program has switched to another one; null: the machine's. The path and the
+  /// offset are in its coordinates.
+  const machine::Kinematics* kinematics = nullptr;
 
   double duration() const { return profile.duration(); }
   double t_end() const { return t_start + duration(); }
 };
+
+inline const machine::Kinematics& kinematics_of(const Segment& segment,
+                                                const machine::Kinematics& usual) {
+  return segment.kinematics ? *segment.kinematics : usual;
+}
 
 /// Revolutions of the spindle since the segment's start, and its speed, `t` s after the start.
 double spindle_turns(const Segment& segment, double t);
@@ -218,6 +226,8 @@ class Planner {
   Expected<void> push(const canon::Command& command);
   /// Everything pushed so far becomes final: the last motion ends at rest.
   void flush();
+  /// The tip at the end of everything pushed, in the kinematics in force then.
+  const AxisValues& tip() const;
   /// The next final segment, in order; empty when more input (or flush) is needed.
   std::optional<Segment> take();
 

@@ -25,6 +25,7 @@ class Planner::Impl {
   Expected<void> push(const canon::Command& command);
   void flush() { merger_.stop(); }
   std::optional<Segment> take() { return shaper_.take(); }
+  const AxisValues& tip() const { return tip_; }
 
  private:
   Expected<void> move(const canon::Command& command, Path path, MotionKind kind, double feed);
@@ -40,10 +41,13 @@ class Planner::Impl {
   Expected<void> still(const canon::Command& command);
   Expected<void> barrier(const canon::Command& command, double seconds = 0,
                          MotionKind kind = MotionKind::idle);
+  Expected<void> switch_kinematics(const canon::Command& command,
+                                   const canon::SwitchKinematics& to);
   Expected<void> no_model(const canon::Command& command, const char* what) const;
   double rpm() const;
 
   const machine::Machine& machine_;
+  const machine::Kinematics* kinematics_;  ///< in force
   Options options_;
   std::optional<Diagnostic> broken_;  ///< why no program can be planned
   Shaper shaper_;
@@ -74,6 +78,7 @@ Diagnostic at(const canon::Command& command, std::string kind, std::string messa
 Planner::Impl::Impl(const machine::Machine& machine, const machine::JointVector& start,
                     const Options& options)
     : machine_(machine),
+      kinematics_(&machine.kinematics()),
       options_(options),
       shaper_(machine, start, options),
       merger_(shaper_),
@@ -122,6 +127,7 @@ Segment Planner::Impl::segment(const canon::Command& command, MotionKind kind) c
   out.work_system = work_system_;
   out.overridable = overridable_;
   out.overridable.per_revolution = feed_mode_ == canon::FeedMode::per_revolution;
+  if (kinematics_ != &machine_.kinematics()) out.kinematics = kinematics_;
   return out;
 }
 
@@ -329,6 +335,40 @@ void Planner::Impl::push_sync(const canon::Command& command, const Line& line,
                        start);
 }
 
+// The joints stay where they are, and the tip is where the other kinematics has it for them.
+Expected<void> Planner::Impl::switch_kinematics(const canon::Command& command,
+                                                const canon::SwitchKinematics& to) {
+  const auto fail = [&](const std::string& message) {
+    return unexpected(at(command, "unsupported_code", message));
+  };
+  if (to.with_motion)
+    return fail("a switch of the kinematics within the motion (M67) has no model; use M68 and M66");
+  const auto& models = machine_.models();
+  if (to.model < 0 || static_cast<std::size_t>(to.model) >= models.size())
+    return fail("the program switches to kinematics " + std::to_string(to.model) +
+                ", which this machine has not: " +
+                (models.empty() ? "there is just one"
+                                : "its channels are 0 to " + std::to_string(models.size() - 1)));
+  const machine::KinematicsModel& model = models[static_cast<std::size_t>(to.model)];
+  if (!model.kinematics) return fail("the program switches the kinematics, but " + model.reason);
+  merger_.stop();
+  if (shaper_.failed()) return {};
+  const machine::JointVector& joints = shaper_.joints();
+  const auto tip = model.kinematics->forward(joints, tool_offset_);
+  if (!tip)
+    return fail("where the machine stands there is no position in the kinematics of '" +
+                model.channel + "': " + tip.error().reason);
+  const auto back = model.kinematics->inverse({*tip, tool_offset_}, joints);
+  constexpr double still = 1e-6;  // mm or rad
+  if (!back || !((*back - joints).cwiseAbs().maxCoeff() <= still))
+    return fail("the joints would not stand still when the program switches to '" + model.channel +
+                "'" + (back ? "" : ": " + back.error().reason));
+  kinematics_ = model.kinematics.get();
+  shaper_.switch_to(*kinematics_);
+  tip_ = *tip;
+  return barrier(command);
+}
+
 Expected<void> Planner::Impl::push(const canon::Command& command) {
   if (broken_) return unexpected(*broken_);
   return std::visit(
@@ -337,7 +377,7 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
             // Where each joint is an axis, straight in joint space is straight in program space.
             const bool straight = machine_.rapid() == machine::RapidMode::coordinated ||
                                   (machine_.rapid() == machine::RapidMode::joint &&
-                                   machine_.kinematics().type() == "identity");
+                                   kinematics_->type() == "identity");
             if (!straight)
               return no_model(command, "a rapid that is not coordinated (machine key `rapid`)");
             return move(command, make_line(tip_, c.end), MotionKind::rapid, infinity);
@@ -376,7 +416,7 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
             merger_.stop();
             // The machine stands still; what changes is where the tip is: along Z, as long as the
             // tool stands upright in M. The interpreter knows no other direction.
-            if (const auto axis = machine_.kinematics().tool_axis(tip_);
+            if (const auto axis = kinematics_->tool_axis(tip_);
                 axis && !((*axis - Vec3::UnitZ()).norm() < 1e-9) &&
                 (tool_offset_ - c.offset).value != AxisValues{}.value)
               return no_model(command,
@@ -439,6 +479,7 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
           [&](const canon::AnalogOutput& c) {
             return c.with_motion ? still(command) : barrier(command);
           },
+          [&](const canon::SwitchKinematics& c) { return switch_kinematics(command, c); },
           [&](const canon::WaitInput&) { return barrier(command); },
           [&](const canon::UserCode& c) {
             const auto rule = machine_.user_codes().find(c.code);
@@ -463,6 +504,7 @@ Planner::Planner(const machine::Machine& machine, const machine::JointVector& st
 Planner::~Planner() = default;
 Expected<void> Planner::push(const canon::Command& command) { return impl_->push(command); }
 void Planner::flush() { impl_->flush(); }
+const AxisValues& Planner::tip() const { return impl_->tip(); }
 std::optional<Segment> Planner::take() { return impl_->take(); }
 
 }  // namespace aircut::plan

@@ -56,7 +56,7 @@ JointLimits limits_of(const machine::Machine& machine) {
 }  // namespace
 
 Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, const Options& options)
-    : machine_(machine),
+    : kinematics_(&machine.kinematics()),
       limits_(limits_of(machine)),
       period_(options.period),
       chain_(options.max_nodes, machine.kinematics(), limits_, start, options.period,
@@ -65,6 +65,11 @@ Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, cons
       joints_(std::move(start)),
       scratch_(std::max(machine.tree().size(), static_cast<std::size_t>(machine.joint_count()) +
                                                    machine.kinematics().passive_names().size())) {}
+
+void Shaper::switch_to(const machine::Kinematics& kinematics) {
+  kinematics_ = &kinematics;
+  linear_joints_ = kinematics.type() == "identity";
+}
 
 Shaper::Corner Shaper::corner_to(const Move& right) const {
   const Move& left = *pending_;
@@ -86,8 +91,7 @@ Shaper::Corner Shaper::corner_to(const Move& right) const {
     const CornerShape shape{left.segment.path, right.segment.path, left_room,
                             length(right.segment.path) / 2, right.tolerance};
     const auto load = [&](const Blend& blend) {
-      return load_of(machine_.kinematics(), blend, feed, left.segment.tool_offset, limits_,
-                     joints_);
+      return load_of(*kinematics_, blend, feed, left.segment.tool_offset, limits_, joints_);
     };
     const auto load_between = [&](const CornerRates& rates, double cut) {
       return line_load(in, out, rates, cut, feed);
@@ -113,7 +117,7 @@ Shaper::Corner Shaper::corner_to(const Move& right) const {
 // the tip, so one joint point tells the joints' directions.
 CornerLoad Shaper::line_load(const AxisValues& in, const AxisValues& out, const CornerRates& rates,
                              double cut, double feed) const {
-  const machine::Kinematics& kinematics = machine_.kinematics();
+  const machine::Kinematics& kinematics = *kinematics_;
   machine::JointVector dq_in, dq_out, none;
   kinematics.rates({}, joints_, in, {}, dq_in, none);
   kinematics.rates({}, joints_, out, {}, dq_out, none);
@@ -162,10 +166,9 @@ void Shaper::stop() {
 std::optional<Shaper::StraightRun> Shaper::straight_run(const Line& line,
                                                         const AxisValues& tool_offset) {
   if (failed_) return std::nullopt;
-  if (find_reach_limit(machine_.kinematics(), line, tool_offset, joints_, scratch_))
-    return std::nullopt;
-  if (make_grid(machine_.kinematics(), line, metric_of(line), infinity, tool_offset, limits_,
-                joints_, made_))
+  if (find_reach_limit(*kinematics_, line, tool_offset, joints_, scratch_)) return std::nullopt;
+  if (make_grid(*kinematics_, line, metric_of(line), infinity, tool_offset, limits_, joints_,
+                made_))
     return std::nullopt;
   const Grid& grid = made_.grid;
   StraightRun out;
@@ -288,7 +291,7 @@ void Shaper::add_range(Move& move, double begin, double end) {
 // Gives a piece to the chain, or its good part and the failure. `goes_on`: the piece before is the
 // other part of the same curve.
 void Shaper::add(Segment&& segment, Metric metric, double feed, bool goes_on) {
-  const machine::Kinematics& kinematics = machine_.kinematics();
+  const machine::Kinematics& kinematics = *kinematics_;
   const double whole = length(segment.path);
   if (const auto limit =
           find_reach_limit(kinematics, segment.path, segment.tool_offset, joints_, scratch_)) {

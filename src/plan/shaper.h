@@ -49,6 +49,9 @@ class Shaper {
   /// Revolutions of the spindle; after stop() those at the end of everything.
   double spindle_turns() const { return chain_.spindle_turns(); }
 
+  /// What follows is in this kinematics, which must outlive the shaper; the motion rests.
+  void switch_to(const machine::Kinematics& kinematics);
+
   /// At the end of everything, once the motion rests.
   const machine::JointVector& joints() const { return joints_; }
   /// After a failure nothing comes in any more.
@@ -69,7 +72,7 @@ class Shaper {
   void add(Segment&& segment, Metric metric, double feed, bool goes_on = false);
   void append(Segment&& segment);
 
-  const machine::Machine& machine_;
+  const machine::Kinematics* kinematics_;
   JointLimits limits_;
   double period_;
   Chain chain_;

@@ -32,9 +32,14 @@ void PathRecorder::add(const sim::Step& step) {
   } else if (std::holds_alternative<plan::Blend>(segment.path)) {
     pieces = 6;
   }
+  // Seen from the work, a straight way in other coordinates than the machine's bends.
+  if (segment.kinematics) pieces = std::max(pieces, 36);
   for (int i = points_.empty() ? 0 : 1; i <= pieces; ++i) {
     const double t = segment.t_start + segment.duration() * i / pieces;
-    const AxisValues tip = plan::evaluate(segment.path, std::min(length, length * i / pieces)).p;
+    const double s = std::min(length, length * i / pieces);
+    AxisValues tip = plan::evaluate(segment.path, s).p;
+    if (segment.kinematics)
+      if (const auto joints = step.motion.at_path(s)) tip = step.motion.tip_on_work(*joints, tip);
     push({Vec3(tip[Axis::x], tip[Axis::y], tip[Axis::z]), t, kind});
   }
 }

@@ -69,6 +69,9 @@ class TravelCheck {
   void see(const canon::Command& command);
   /// What could not be bounded, in words.
   const std::vector<std::string>& unchecked() const;
+  /// Where the tip is after all that it saw: what the interpreter is told when the program has
+  /// switched the kinematics.
+  const AxisValues& tip() const;
 
   struct State;  ///< private to the check
 

@@ -23,6 +23,7 @@ constexpr std::size_t most_messages = 10'000;
 struct TravelCheck::State {
   const machine::Machine& machine;
   machine::JointVector joints;
+  const machine::Kinematics* kinematics;  ///< in force
   Diagnostics& out;
   AxisValues tip, tool_offset;
   std::vector<double> travel;
@@ -33,6 +34,7 @@ struct TravelCheck::State {
   std::set<std::tuple<const SourceText*, std::uint64_t, int, double>> told;
 
   void move(const canon::Command& command);
+  void switch_kinematics(const canon::Command& command, const canon::SwitchKinematics& to);
   void spline(const canon::Command& command, const canon::SplineFeed& spline);
   void end_only(const canon::Command& command);
   bool reaches(const motion::JointMotion& motion, const canon::Command& command);
@@ -45,13 +47,15 @@ struct TravelCheck::State {
 
 TravelCheck::TravelCheck(const machine::Machine& machine, const machine::JointVector& start,
                          Diagnostics& out)
-    : state_(std::make_unique<State>(State{machine, start, out, {}, {}, {}, {}, false, {}, {}})) {
+    : state_(std::make_unique<State>(
+          State{machine, start, &machine.kinematics(), out, {}, {}, {}, {}, false, {}, {}})) {
   state_->travel.assign(motion::travel_count(machine), 0);
   if (const auto tip = machine.kinematics().forward(start, {})) state_->tip = *tip;
 }
 TravelCheck::~TravelCheck() = default;
 
 const std::vector<std::string>& TravelCheck::unchecked() const { return state_->unchecked; }
+const AxisValues& TravelCheck::tip() const { return state_->tip; }
 
 void TravelCheck::see(const canon::Command& command) {
   State& s = *state_;
@@ -60,6 +64,8 @@ void TravelCheck::see(const canon::Command& command) {
     s.tool_offset = offset->offset;
   } else if (const auto* spline = std::get_if<canon::SplineFeed>(&command.action)) {
     s.spline(command, *spline);
+  } else if (const auto* to = std::get_if<canon::SwitchKinematics>(&command.action)) {
+    s.switch_kinematics(command, *to);
   } else if (canon::is_motion(command.action)) {
     const bool rapid = std::holds_alternative<canon::Rapid>(command.action);
     if (rapid && s.machine.rapid() != machine::RapidMode::coordinated)
@@ -89,6 +95,7 @@ void TravelCheck::State::move(const canon::Command& command) {
   plan::Segment segment;
   segment.path = std::move(*path);
   segment.tool_offset = tool_offset;
+  segment.kinematics = kinematics;
   segment.profile.knots = {{0, 0, 1, 0, 0}, {length, length, 1, 0, 0}};
   const motion::JointMotion motion(machine, segment, joints);
   if (!reaches(motion, command)) return;
@@ -106,14 +113,30 @@ void TravelCheck::State::move(const canon::Command& command) {
   if (const auto end = motion.at(length)) joints = *end;
 }
 
+// The joints stand still; the tip is where the other kinematics has it.
+void TravelCheck::State::switch_kinematics(const canon::Command& command,
+                                           const canon::SwitchKinematics& to) {
+  const auto& models = machine.models();
+  const bool known = to.model >= 0 && static_cast<std::size_t>(to.model) < models.size() &&
+                     models[static_cast<std::size_t>(to.model)].kinematics && !to.with_motion;
+  if (!known)
+    return tell_unproven(command, "the program switches to a kinematics that is not known here");
+  kinematics = models[static_cast<std::size_t>(to.model)].kinematics.get();
+  if (const auto at = kinematics->forward(joints, tool_offset))
+    tip = *at;
+  else
+    tell_unproven(command, "there is no position in the kinematics that the program switches to");
+}
+
 // Each joint goes straight to its end, so that nothing between is further out.
 void TravelCheck::State::end_only(const canon::Command& command) {
   const machine::Target target{canon::end_of(command.action, tip), tool_offset};
-  const auto end = machine.kinematics().inverse(target, joints);
+  const auto end = kinematics->inverse(target, joints);
   if (!end) {
     plan::Segment segment;
     segment.path = plan::Hold{target.tip};
     segment.tool_offset = tool_offset;
+    segment.kinematics = kinematics;
     reaches(motion::JointMotion(machine, segment, joints), command);
     return;
   }
@@ -138,10 +161,10 @@ void TravelCheck::State::spline(const canon::Command& command, const canon::Spli
       box.high[axis] = std::max(box.high[axis], value);
     }
   box.travel = box.high - box.low;
-  const auto q = machine.kinematics().inverse({tip, tool_offset}, joints);
-  if (!q || !machine.kinematics().travel_bound(box, travel) || !inside(*q, resolution))
+  const auto q = kinematics->inverse({tip, tool_offset}, joints);
+  if (!q || !kinematics->travel_bound(box, travel) || !inside(*q, resolution))
     tell_unproven(command, "how far the joints travel within this spline can't be bounded");
-  if (const auto end = machine.kinematics().inverse({last, tool_offset}, joints)) joints = *end;
+  if (const auto end = kinematics->inverse({last, tool_offset}, joints)) joints = *end;
 }
 
 bool TravelCheck::State::reaches(const motion::JointMotion& motion, const canon::Command& command) {

@@ -12,11 +12,22 @@ std::string from_line_on(const SourceSpan& span, const std::string& why) {
 
 }  // namespace
 
+interp::KinematicsSwitch kinematics_switch(const machine::Machine& machine) {
+  interp::KinematicsSwitch out;
+  out.start = machine.model();
+  for (const auto& [code, rule] : machine.user_codes())
+    if (rule.kind == machine::UserCodeKind::kinematics) out.codes[code] = rule.model;
+  out.tcp_on = machine.tcp_on();
+  out.tcp_off = machine.tcp_off();
+  return out;
+}
+
 Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagnostics,
                       plan::Planner& planner, Simulator& simulator, const RunOptions& options) {
   bool moving = true;  // false once nothing can follow; then only the text is checked on
   SourceSpan last;
   bool interrupted = false, out_of_time = false;
+  bool unsynchronised = false;  // M68 has switched the kinematics and no M66 came yet
 
   const auto drain = [&] {
     while (auto segment = planner.take()) {
@@ -60,8 +71,21 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
       moving = false;
       continue;
     }
-    if (std::holds_alternative<canon::Probe>(command->action)) planner.flush();
+    const auto* switched = std::get_if<canon::SwitchKinematics>(&command->action);
+    if (switched || std::holds_alternative<canon::Probe>(command->action)) planner.flush();
     drain();
+    if (switched) {
+      interpreter.synchronise(planner.tip());
+      unsynchronised = switched->unsynchronised;
+    }
+    if (std::holds_alternative<canon::WaitInput>(command->action)) unsynchronised = false;
+    if (unsynchronised && canon::is_motion(command->action)) {
+      simulator.not_checked(from_line_on(
+          command->span,
+          "M68 has switched the kinematics and no M66 waits for it, so a control may still plan "
+          "from the position before"));
+      unsynchronised = false;
+    }
     if (const auto* probe = std::get_if<canon::Probe>(&command->action))
       interpreter.resume({.tip = probe->end, .tripped = false});
   }
@@ -71,6 +95,7 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
   if (interpreter.statistics().limit_reached)
     simulator.not_checked("the rest of the program: the interpreter stopped at a limit");
 
+  if (interpreter.statistics().input_read) simulator.inputs_are_used();
   Simulator::Result result = simulator.finish();
   result.summary.interrupted = interrupted;
   result.summary.limit_reached = out_of_time;

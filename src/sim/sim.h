@@ -294,6 +294,8 @@ class Simulator {
   bool stopped() const { return stopped_; }
   /// Notes something that was not checked: the verdict can't be pass.
   void not_checked(const std::string& what);
+  /// The program has looked at what M66 read: what was taken for it counts.
+  void inputs_are_used() { inputs_used_ = true; }
 
   struct Result {
     std::vector<Finding> findings;
@@ -337,6 +339,8 @@ class Simulator {
   Summary summary_;
   bool stopped_ = false;
   bool told_no_tool_ = false;
+  bool inputs_used_ = false;
+  std::vector<Finding> inputs_;  ///< of M66 that only count when a program looks at the result
 };
 
 struct RunOptions {
@@ -345,6 +349,9 @@ struct RunOptions {
   std::function<void(double t, const SourceSpan&)> progress;  ///< may be empty
   std::function<void(const canon::Command&)> listen;          ///< sees every command; may be empty
 };
+
+/// What a program can do to switch the kinematics of this machine, as options of the interpreter.
+interp::KinematicsSwitch kinematics_switch(const machine::Machine& machine);
 
 /// The main loop: program → commands → segments → machine. Errors of the program are in the
 /// interpreter's diagnostics; after the first one nothing moves any more, as on the control, and

@@ -126,7 +126,11 @@ void Simulator::step(const plan::Segment& segment) {
                 std::to_string(wait->index) + ", which has no model here: it is taken as 0";
     f.remedy = "what follows was checked for that value only";
     f.makes_unknown = true;
-    findings_.add(f);
+    // M66 L0 does not wait: all that it changes is #5399.
+    if (wait->mode == 0)
+      inputs_.push_back(std::move(f));
+    else
+      findings_.add(f);
   }
   if (std::holds_alternative<canon::Probe>(segment.command.action)) {
     Finding f = finding_at(Kind::not_checked, step, segment.t_end());
@@ -241,6 +245,8 @@ void Simulator::place(Finding& f) const {
 }
 
 Simulator::Result Simulator::finish() {
+  if (inputs_used_)
+    for (Finding& f : inputs_) findings_.add(std::move(f));
   for (const auto& check : checks_) check->finish(summary_, findings_);
   summary_.findings_dropped = findings_.dropped();
   Result result{findings_.finish(), summary_};

@@ -101,6 +101,9 @@ void read_setting(ProgramFile& program, const std::string& setting) {
     remap.modal_group = 10;
     remap.name = "M" + std::to_string(remap.code);
     program.options.remaps.push_back(remap);
+  } else if (key == "tcp") {
+    program.options.kinematics.start = program.options.kinematics.tcp_off.emplace(0);
+    program.options.kinematics.tcp_on = 1;
   } else if (key == "max-idle-blocks") {
     program.options.limits.max_idle_blocks = std::stoull(rest);
   } else if (key == "no-peer") {

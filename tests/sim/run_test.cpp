@@ -55,9 +55,17 @@ TEST(Run, FailsWhereThePlannerCouldNotKeepALimit) {
 TEST(Run, IsUnknownWhenAnInputIsRead) {
   BoxMachine box;
   const RunResult r =
-      run_program("G21 G90 G61\nM66 P0 L0\nG0 X10\nM2\n", box.machine(), {}, box.sources());
+      run_program("G21 G90 G61\nM66 P0 L0\nG0 X#5399\nM2\n", box.machine(), {}, box.sources());
   EXPECT_TRUE(r.only(Kind::not_checked).makes_unknown);
   EXPECT_EQ(r.verdict, Verdict::unknown);
+}
+
+TEST(Run, DoesNotMindAnInputThatNobodyLooksAt) {
+  BoxMachine box;
+  const char* immediate = "G21 G90 G61\nM66 P0 L0\nG0 X10\nM2\n";
+  EXPECT_EQ(run_program(immediate, box.machine(), {}, box.sources()).verdict, Verdict::pass);
+  const char* waits = "G21 G90 G61\nM66 P0 L3 Q1\nG0 X10\nM2\n";
+  EXPECT_EQ(run_program(waits, box.machine(), {}, box.sources()).verdict, Verdict::unknown);
 }
 
 TEST(Run, IsUnknownWhenThereIsNothingToCollide) {

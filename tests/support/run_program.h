@@ -41,13 +41,16 @@ inline RunResult run_program(const std::string& text,
                              std::shared_ptr<const machine::Machine> machine,
                              const tool::ToolTable& tools, SourceMap& sources,
                              const sim::CheckOptions& checks = {}, double max_time = 360'000,
-                             sim::Observer* observer = nullptr, const SourceText* given = nullptr) {
+                             sim::Observer* observer = nullptr, const SourceText* given = nullptr,
+                             interp::Dialect dialect = interp::Dialect::linuxcnc) {
   RunResult out;
   const SourceText& program = given ? *given : sources.add("test.ngc", text);
   interp::Options options;
   options.axes = machine->kinematics().axes();
   const machine::JointVector start = machine->home();
   if (const auto tip = machine->kinematics().forward(start, {})) options.start = *tip;
+  options.dialect = dialect;
+  options.kinematics = sim::kinematics_switch(*machine);
   interp::Interpreter interpreter(
       program, tools, {}, options, [&](const std::string& path) { return sources.open(path); },
       out.diagnostics);

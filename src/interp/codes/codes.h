@@ -77,6 +77,7 @@ void set_lathe_offset(const CodeRule&, BlockRun&);
 void data_end(const CodeRule&, BlockRun&);
 // fanuc_tools.cpp
 void fanuc_length_offset(const CodeRule&, BlockRun&);
+void switch_kinematics(const CodeRule&, BlockRun&, int model);
 void fanuc_radius_comp(const CodeRule&, BlockRun&);
 void fanuc_change_tool(const CodeRule&, BlockRun&);
 // fanuc_reference.cpp

@@ -48,13 +48,27 @@ void take_length_offset(BlockRun& run, const AxisValues& offset, int number) {
 
 }  // namespace
 
+// Tool centre point control takes its offset as G43 does, in the kinematics without it; then the
+// machine goes over to the one with it. Any other code of the group ends it first.
 void fanuc_length_offset(const CodeRule& rule, BlockRun& run) {
   ModalState& state = run.state;
+  const KinematicsSwitch& models = run.session.options.kinematics;
+  const bool tcp = rule.code == 434 || rule.code == 2340;
+  if (tcp && (!models.tcp_on || !models.tcp_off))
+    return run.error("unsupported_code", rule,
+                     name_of(rule) +
+                         " needs to know the machine's kinematics with and without tool centre "
+                         "point control: name a machine that has [tcp] with -m");
   if (state.comp.side != CompSide::off)
     return run.error("comp_illegal", rule,
                      name_of(rule) +
                          " can't be used while radius compensation is on; give G40 "
                          "before");
+  if (state.tcp) {
+    state.tcp = false;
+    if (state.kinematics != *models.tcp_off)
+      return run.switch_kinematics({*models.tcp_off, false, false}, true);
+  }
   if (rule.code == 490) return take_length_offset(run, {}, 0);
   const auto h = run.has('H') ? run.integer('H', 0, OffsetMemory::max_tool)
                               : std::optional<int>(state.length_number);
@@ -69,6 +83,9 @@ void fanuc_length_offset(const CodeRule& rule, BlockRun& run) {
   }
   state.length_number = *h;
   take_length_offset(run, offset, *h);
+  if (!tcp) return;
+  state.tcp = true;
+  if (state.kinematics != *models.tcp_on) run.switch_kinematics({*models.tcp_on, false, false});
 }
 
 namespace {

@@ -282,6 +282,12 @@ bool frame_allows_cycle(BlockRun& run, const CodeRule& rule) {
 
 bool frame_allows(BlockRun& run, const CodeRule& rule, AxisSet axes) {
   const ModalState& state = run.state;
+  if (state.tcp) {
+    run.error(
+        "frame_error", rule,
+        name_of(rule) + " can't be used while tool centre point control is on; give G49 before");
+    return false;
+  }
   if (!state.frame.active()) return true;
   bool touched = false;
   for (int i = 0; i < 3; ++i)

@@ -89,7 +89,21 @@ void analog_output(const CodeRule& rule, BlockRun& run) {
   const auto index = run.integer('E', 0, last_io);
   if (!index) return;
   // Without Q the control sets -1.
-  run.emit(canon::AnalogOutput{*index, run.number_or('Q', -1), rule.code == 67});
+  const double value = run.number_or('Q', -1);
+  const bool with_motion = rule.code == 67;
+  run.emit(canon::AnalogOutput{*index, value, with_motion});
+  if (run.session.options.kinematics.output != *index) return;
+  const auto& by_value = run.session.options.kinematics.by_value;
+  const bool known = value >= 0 && value < static_cast<double>(by_value.size());
+  const int model = known ? by_value[static_cast<std::size_t>(value)] : -1;
+  if (with_motion || model != run.state.kinematics)
+    run.switch_kinematics({model, with_motion, !with_motion});
+}
+
+// A code of the machine's own.
+void switch_kinematics(const CodeRule& rule, BlockRun& run, int model) {
+  if (refuse_with_comp(run, rule) || model == run.state.kinematics) return;
+  run.switch_kinematics({model, false, false});
 }
 
 // Without a machine nothing ever changes an input: it reads 0, and waiting for anything but a low

@@ -136,7 +136,8 @@ double turn_over(const plan::Path& path) {
 }  // namespace
 
 bool turns(const Step& step, const machine::RawStock& stock) {
-  return stock.link != step.scene.machine().work_link() || turn_over(step.segment.path) != 0;
+  return stock.link != step.scene.machine().work_link() || step.segment.kinematics ||
+         turn_over(step.segment.path) != 0;
 }
 
 bool straight_moves(const Step& step, const machine::RawStock& stock, const Reach& reach,
