@@ -180,6 +180,12 @@ GridBox Workspace::extent() const {
 GridBox Workspace::largest_box() const {
   GridBox best;
   const auto [nx, ny, nz] = count_;
+  // A flat grid along Z is one plane, not many slices of one row.
+  if (nz > 1 && (nx == 1 || ny == 1)) {
+    const Rectangle r = largest_rectangle(bits_, ny == 1 ? nx : ny, nz);
+    if (ny == 1) return {{r.x0, 0, r.y0}, {r.x1, 0, r.y1}};
+    return {{0, r.x0, r.y0}, {0, r.x1, r.y1}};
+  }
   const std::size_t layer = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
   for (int k0 = 0; k0 < nz; ++k0) {
     std::vector<unsigned char> all(layer, 1);

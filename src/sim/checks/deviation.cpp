@@ -77,8 +77,10 @@ class DeviationCheck final : public Check {
       fresh_ = true;
       cam_ = cam->tolerance;
     }
-    if (segment.tool_offset != offset_) start_.reset();  // the tip is another one
+    // The tip is another one.
+    if (segment.tool_offset != offset_ || segment.kinematics != kinematics_) start_.reset();
     offset_ = segment.tool_offset;
+    kinematics_ = segment.kinematics;
     if (!canon::is_motion(action) || std::holds_alternative<plan::Hold>(segment.path)) return;
     begin_command(segment, action);
     look_at(step);
@@ -210,6 +212,7 @@ class DeviationCheck final : public Check {
   double corner_ = std::numeric_limits<double>::infinity(), before_ = 0;  ///< G64 P, mm
   double cam_ = 0, cam_before_ = 0;                                       ///< G64 Q, mm
   AxisValues offset_;
+  const machine::Kinematics* kinematics_ = nullptr;
   std::optional<AxisValues> start_;  ///< of the next command
   bool at_its_start_ = false;
   bool fresh_ = false;  ///< no command came since the mode changed

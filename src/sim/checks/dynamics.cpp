@@ -90,7 +90,8 @@ class DynamicsCheck final : public Check {
     Place out;
     const plan::PathPoint p = plan::evaluate(step.segment.path, s);
     const machine::Target target{p.p, step.segment.tool_offset};
-    const machine::Kinematics& kinematics = step.scene.machine().kinematics();
+    const machine::Kinematics& kinematics =
+        plan::kinematics_of(step.segment, step.scene.machine().kinematics());
     if (auto joint = plan::joint_point(kinematics, target, p.d, p.dd, near)) {
       out.reached = out.smooth = true;
       out.joint = std::move(*joint);
