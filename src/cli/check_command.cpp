@@ -66,7 +66,8 @@ report::Unit check_program(const Job& job, const ProgramArguments& arguments,
     if (checks.semantics)
       meaning.finish({.reached = interpreter.statistics().ended,
                       .before = parameters.values,
-                      .after = interpreter.parameters().values});
+                      .after = interpreter.parameters().values,
+                      .input_read = interpreter.statistics().input_read});
   });
   refused = diagnostics.errors() > own_errors;
   unit.blocks = interpreter.statistics().blocks;

@@ -80,6 +80,9 @@ struct ProgramCheck::State {
   std::vector<std::string> unchecked;
   std::set<std::tuple<const SourceText*, std::uint64_t, std::string>> told;
   std::size_t read = 0;  ///< of the interpreter's messages
+  /// That M66 L0 has read.
+  std::vector<std::pair<SourceSpan, std::string>> inputs;
+  void tell_input(const SourceSpan& span, const std::string& input);
 
   /// Set by a block that was refused: nobody knows.
   struct Unsure {
@@ -202,6 +205,8 @@ void ProgramCheck::see(const Command& command) {
 }
 
 void ProgramCheck::finish(const Ending& ending) {
+  if (ending.input_read)
+    for (const auto& [span, input] : state_->inputs) state_->tell_input(span, input);
   state_->read_refusals();
   state_->tell_held();
   if (ending.reached) state_->tell_what_stays(ending.before, ending.after);
@@ -453,10 +458,19 @@ void ProgramCheck::State::on(const canon::WaitInput& c, const Command& command) 
          "M66 waits up to " + shortest(c.timeout) + " s for " + input +
              ", which comes from outside: the time is not known, nor that it comes",
          "let the program look at #5399, which is -1 when the signal did not come");
-  if (!context.simulated)
-    tell_unknown("not_checked", command.span,
-                 "M66 reads " + input + ", which has no model here: it is taken as 0",
-                 "what follows was checked for that value only");
+  if (context.simulated) return;
+  // One that does not wait only matters when the program looks at the result.
+  constexpr std::size_t most = 1000;  // in a loop it comes again and again
+  if (c.mode == 0 && inputs.size() < most)
+    inputs.emplace_back(command.span, input);
+  else
+    tell_input(command.span, input);
+}
+
+void ProgramCheck::State::tell_input(const SourceSpan& span, const std::string& input) {
+  tell_unknown("not_checked", span,
+               "M66 reads " + input + ", which has no model here: it is taken as 0",
+               "what follows was checked for that value only");
 }
 
 void ProgramCheck::State::on(const canon::UserCode& c, const Command& command) {

@@ -29,6 +29,7 @@ struct Ending {
   bool reached = true;                  ///< its end; not an error or a limit
   const std::map<int, double>& before;  ///< numbered parameters of the control at the start
   const std::map<int, double>& after;
+  bool input_read = true;  ///< some block has looked at #5399, the result of M66
 };
 
 /// Looks at one program. Borrows what it is given.

@@ -127,7 +127,8 @@ void Simulator::step(const plan::Segment& segment) {
     f.remedy = "what follows was checked for that value only";
     f.makes_unknown = true;
     // M66 L0 does not wait: all that it changes is #5399.
-    if (wait->mode == 0)
+    constexpr std::size_t most = 1000;  // in a loop it comes again and again
+    if (wait->mode == 0 && inputs_.size() < most)
       inputs_.push_back(std::move(f));
     else
       findings_.add(f);

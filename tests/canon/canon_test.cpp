@@ -85,16 +85,43 @@ TEST(Text, NamesASpindleOnlyWhenItIsNotTheFirst) {
 }
 
 TEST(Text, OfEveryCommandIsOneLineWithAWordFirst) {
-  const std::vector<Action> all = {
-      Rapid{},         LinearFeed{},    ArcFeed{},        SplineFeed{},
-      Dwell{},         SyncFeed{},      Probe{},          SetFeedMode{},
-      SetFeedRate{},   SelectPlane{},   UseUnit{},        WorkOffset{},
-      WorkRotation{},  G92Offset{},     ProgramMap{},     ToolLengthOffset{},
-      SetPathMode{},   SetNaiveCam{},   SetSpindleMode{}, SetSpindleSpeed{},
-      TurnSpindle{},   OrientSpindle{}, SelectTool{},     ChangeTool{},
-      SetToolNumber{}, Coolant{},       Override{},       DigitalOutput{},
-      AnalogOutput{},  WaitInput{},     UserCode{},       ProgramStop{},
-      PalletChange{},  ProgramEnd{},    Message{},        LogFile{LogFile::Kind::close, ""}};
+  const std::vector<Action> all = {Rapid{},
+                                   LinearFeed{},
+                                   ArcFeed{},
+                                   SplineFeed{},
+                                   Dwell{},
+                                   SyncFeed{},
+                                   Probe{},
+                                   SetFeedMode{},
+                                   SetFeedRate{},
+                                   SelectPlane{},
+                                   UseUnit{},
+                                   WorkOffset{},
+                                   WorkRotation{},
+                                   G92Offset{},
+                                   ProgramMap{},
+                                   ToolLengthOffset{},
+                                   SetPathMode{},
+                                   SetNaiveCam{},
+                                   SetSpindleMode{},
+                                   SetSpindleSpeed{},
+                                   TurnSpindle{},
+                                   OrientSpindle{},
+                                   SelectTool{},
+                                   ChangeTool{},
+                                   SetToolNumber{},
+                                   Coolant{},
+                                   Override{},
+                                   DigitalOutput{},
+                                   AnalogOutput{},
+                                   SwitchKinematics{},
+                                   WaitInput{},
+                                   UserCode{},
+                                   ProgramStop{},
+                                   PalletChange{},
+                                   ProgramEnd{},
+                                   Message{},
+                                   LogFile{LogFile::Kind::close, ""}};
   EXPECT_EQ(all.size(), std::variant_size_v<Action>);
   for (const Action& action : all) {
     const std::string text = to_text(action);

@@ -69,7 +69,7 @@ TEST_F(KinTypes, WorkspaceTellsWhatAMachineReaches) {
   EXPECT_NE(glide.out.find("300 x 1 x 153 cells"), std::string::npos) << glide.out;
   EXPECT_NE(glide.out.find("joint S1 beyond its travel"), std::string::npos) << glide.out;
   EXPECT_EQ(run("workspace -m " + root + "ox-glide-crossed --x 5:1").code, 2);
-  const std::string slice = "workspace -m " + root + "mill5-ac --x=-250:250 --y=-200:200 --z 100";
+  const std::string slice = "workspace -m " + root + "mill5-ac --x=-250:250 --y=-200:200 --z 20";
   const Outcome picture = run(slice + " --pitch 50 --collision-free --tool 1 -o w.png");
   EXPECT_EQ(picture.code, 0) << picture.out << picture.err;
   EXPECT_NE(picture.out.find("bodies touch"), std::string::npos) << picture.out;

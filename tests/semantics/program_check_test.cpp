@@ -53,7 +53,8 @@ class Doubts : public ::testing::Test {
       if (const auto* probe = std::get_if<canon::Probe>(&command->action))
         interpreter.resume({.tip = probe->end, .tripped = false});
     }
-    check.finish({interpreter.statistics().ended, before.values, interpreter.parameters().values});
+    check.finish({interpreter.statistics().ended, before.values, interpreter.parameters().values,
+                  interpreter.statistics().input_read});
     Result out;
     out.unchecked = check.unchecked();
     for (const Diagnostic& d : diagnostics.list()) {
@@ -247,10 +248,11 @@ TEST_F(Doubts, WarnsOfARotationThatIsLeftOn) {
 // ---- what nobody here can know
 
 TEST_F(Doubts, SaysThatUserCodesAndInputsAreNotKnown) {
-  const Result r = run("G21\nM110 P1\nM66 P2 L0\nM66 P2 L3 Q5\nM2\n");
-  EXPECT_EQ(r.found, (List{"not_executed 2:1 M110", "not_checked 3:1 M66 P2 L0",
-                           "wait_code 4:1 M66", "not_checked 4:1 M66 P2 L3 Q5"}));
+  const Result r = run("G21\nM110 P1\n#1=#5399\nM66 P2 L3 Q5\nM66 P2 L0\nM2\n");
+  EXPECT_EQ(r.found, (List{"not_executed 2:1 M110", "wait_code 4:1 M66",
+                           "not_checked 4:1 M66 P2 L3 Q5", "not_checked 5:1 M66 P2 L0"}));
   EXPECT_EQ(r.unchecked.size(), 3u);
+  EXPECT_EQ(found("G21\nM66 P2 L0\nM2\n"), List{}) << "nobody looks at #5399";
   simulated_ = true;  // then the simulation tells it
   EXPECT_EQ(found("G21\nM110 P1\nM66 P2 L3 Q5\nM2\n"), List{"wait_code 3:1 M66"});
   simulated_ = false;
