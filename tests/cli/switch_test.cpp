@@ -60,8 +60,7 @@ class SwitchedSetup : public Program {
 
 TEST_F(SwitchedSetup, FollowsTheAnalogOutputThatItsHalNames) {
   // C a quarter: in tool centre point control a way along X is one of the slide Y.
-  const Outcome r =
-      run("G21 G90 G94 F1000 S1000 M3\nG0 X30 C90\nM428\nG91 G1 X10\nG90\nM429\nG1 Z5\nM2\n");
+  const Outcome r = run("G21 G90 G94 F1000\nG0 X30 C90\nM428\nG91 G1 X10\nG90\nM429\nG1 Z5\nM2\n");
   EXPECT_EQ(r.code, 0) << r.out << r.err;
   const auto q = last_joints();
   ASSERT_EQ(q.size(), 5u);
