@@ -53,6 +53,14 @@ const std::vector<KindText>& general_kinds() {
        "or the program would never end. docs/overrides.md has an example."},
       {"setup_invalid", "setup.toml is wrong",
        "A key is unknown or a value does not fit; line and column say where."},
+      {"stock_memory", "the stock does not fit into memory",
+       "A finer pitch of [stock] takes more memory, with its square, and time. What is known "
+       "before "
+       "a\n"
+       "run is told before it, with the finest pitch that fits; a stock whose surface grows beyond "
+       "the\n"
+       "memory during the run makes the verdict unknown from there on.\n"
+       "Remedy: a coarser pitch in [stock], or none: the default suits most parts."},
       {"tools_invalid", "the tool table is wrong",
        "A line of the .tbl or a key of tools.toml does not fit; docs/tools.md lists all keys."},
   };

@@ -274,6 +274,12 @@ int run_command(const RunArguments& a) {
     return fail(
         make_error("usage", std::string(a.save_stock.empty() ? "--part" : "--save-stock") +
                                 " needs a stock: name a set-up with [stock], --setup FILE"));
+  if (asked_for(a.checks).cut)
+    if (auto fits = sim::stock_fits(*job.machine); !fits) {
+      fits.error().notes.push_back({"help", "say so in [stock] of " + printable(a.program.setup) +
+                                                ": pitch = …, or leave it out"});
+      return fail(fits.error());
+    }
   std::vector<plan::OverrideEvent> overrides;
   if (!a.overrides.empty()) {
     auto read = read_overrides(job, a.overrides);

@@ -343,6 +343,10 @@ class Simulator {
   std::vector<Finding> inputs_;  ///< of M66 that only count when a program looks at the result
 };
 
+/// Whether the machine's stock fits into memory on its lattice; the error `stock_memory` names the
+/// finest pitch that does.
+Expected<void> stock_fits(const machine::Machine& machine);
+
 struct RunOptions {
   double max_time = 360'000;                                  ///< simulated seconds
   std::function<bool()> stop_requested;                       ///< asked every block; may be empty

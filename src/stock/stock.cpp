@@ -34,7 +34,7 @@ double bytes_to_begin(const Solid& solid, const Box3& box, double pitch) {
 
 /// The finest pitch that fits, rounded up to two digits.
 double finest_that_fits(const Solid& solid, const Box3& box, double pitch, std::size_t limit) {
-  while (bytes_to_begin(solid, box, pitch) > static_cast<double>(limit)) pitch *= 1.05;
+  while (bytes_to_begin(solid, box, pitch) > static_cast<double>(limit)) pitch *= 1.002;
   const double digit = std::pow(10, std::floor(std::log10(pitch)) - 1);
   return std::ceil(pitch / digit) * digit;
 }
@@ -61,6 +61,22 @@ Diagnostic too_large(const Stock::Impl& stock) {
                                         fixed(std::ceil(pitch / digit) * digit, 4) + " mm");
 }
 
+Expected<void> Stock::fits(const Solid& solid, double pitch, const StockOptions& options) {
+  const auto box = solid_box(solid);
+  if (!box || !(pitch >= finest_pitch)) return {};  // make() tells
+  if (!(bytes_to_begin(solid, *box, pitch) > static_cast<double>(options.memory_limit))) return {};
+  const Vec3 size = box->sizes();
+  const double finest = finest_that_fits(solid, *box, pitch, options.memory_limit);
+  std::string digits = fixed(finest, 6);  // it has two
+  digits.erase(digits.find_last_not_of('0') + 1);
+  return unexpected(
+      make_error("stock_memory", "a stock of " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) +
+                                     " x " + fixed(size.z(), 1) + " mm does not fit into " +
+                                     std::to_string(options.memory_limit >> 20) +
+                                     " MiB at a pitch of " + shortest(pitch) +
+                                     " mm; the finest pitch that fits is " + digits + " mm"));
+}
+
 Expected<Stock> Stock::make(const Solid& solid, double pitch, const StockOptions& options) {
   const auto box = solid_box(solid);
   if (!box) return unexpected(box.error());
@@ -74,14 +90,7 @@ Expected<Stock> Stock::make(const Solid& solid, double pitch, const StockOptions
                    "the stock's pitch must be at least 0.0001 mm and at most the smallest "
                    "side of the stock, " +
                        shortest(size.minCoeff()) + " mm"));
-  if (bytes_to_begin(solid, *box, pitch) > static_cast<double>(options.memory_limit))
-    return unexpected(make_error(
-        "stock_memory", "a stock of " + fixed(size.x(), 1) + " x " + fixed(size.y(), 1) + " x " +
-                            fixed(size.z(), 1) + " mm does not fit into " +
-                            std::to_string(options.memory_limit >> 20) + " MiB at a pitch of " +
-                            shortest(pitch) + " mm; the finest pitch that fits is " +
-                            shortest(finest_that_fits(solid, *box, pitch, options.memory_limit)) +
-                            " mm"));
+  if (auto room = fits(solid, pitch, options); !room) return unexpected(room.error());
   auto impl = std::make_unique<Impl>();
   impl->solid = solid;
   impl->box = *box;

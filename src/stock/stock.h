@@ -147,6 +147,8 @@ class Stock {
   /// Errors: `stock_shape` (size, pitch), `stock_mesh` (open mesh), `stock_memory` (names the
   /// finest pitch that fits).
   static Expected<Stock> make(const Solid& solid, double pitch, const StockOptions& options = {});
+  /// Whether make() has the memory to begin with: its error `stock_memory`, else nothing.
+  static Expected<void> fits(const Solid& solid, double pitch, const StockOptions& options = {});
   /// A stock from save(). Error `stock_file`: what is wrong, and where. `name` is what messages
   /// call it.
   static Expected<Stock> load(std::string_view bytes, const std::string& name,

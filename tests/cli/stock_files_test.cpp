@@ -64,6 +64,17 @@ TEST_F(StockFiles, RefusesAStockThatWasChanged) {
   EXPECT_EQ(text_of(path("one.stock")), bytes);
 }
 
+TEST_F(StockFiles, TellBeforeTheRunThatTheLatticeDoesNotFit) {
+  put("one.ngc", program(slot(10)));
+  put("fine.toml", block + "box = [120.0, 79.8, 50.0]\npitch = 0.001\n");
+  const Outcome fine = run("one.ngc", "fine.toml", "-o " + path("fine"));
+  EXPECT_EQ(fine.code, 2) << fine.out;
+  EXPECT_TRUE(fine.says("error[stock_memory]")) << fine.err;
+  EXPECT_TRUE(fine.says("the finest pitch that fits is 0.0076 mm")) << fine.err;
+  EXPECT_TRUE(fine.says("fine.toml")) << fine.err;
+  EXPECT_FALSE(std::filesystem::exists(path("fine")));
+}
+
 TEST_F(StockFiles, NeedAStockThatIsKnown) {
   put("one.ngc", program(slot(10)));
   const std::string job = "run " + path("one.ngc") + " -m mill3 --check limits --frames none ";

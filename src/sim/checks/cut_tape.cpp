@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "sim/checks/turning.h"
+
 namespace aircut::sim {
 
 namespace {
@@ -80,7 +82,9 @@ double default_pitch(const machine::RawStock& raw) {
   return decade * (lead >= 5 ? 5 : lead >= 2 ? 2 : 1);
 }
 
-Expected<stock::Stock> make_stock(const machine::RawStock& raw, double pitch) {
+namespace {
+
+stock::Solid solid_of(const machine::RawStock& raw) {
   stock::Solid solid;
   switch (raw.shape) {
     case machine::StockShape::box:
@@ -96,7 +100,19 @@ Expected<stock::Stock> make_stock(const machine::RawStock& raw, double pitch) {
       solid = stock::MeshSolid{raw.mesh};
       break;
   }
-  return stock::Stock::make(solid, pitch);
+  return solid;
+}
+
+}  // namespace
+
+Expected<stock::Stock> make_stock(const machine::RawStock& raw, double pitch) {
+  return stock::Stock::make(solid_of(raw), pitch);
+}
+
+Expected<void> stock_fits(const machine::Machine& machine) {
+  const auto& raw = machine.stock();
+  if (!raw || raw->saved || turns_the_work(machine)) return {};
+  return stock::Stock::fits(solid_of(*raw), raw->pitch.value_or(default_pitch(*raw)));
 }
 
 Expected<CutTape> CutTape::make() {
