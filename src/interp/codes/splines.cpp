@@ -45,6 +45,23 @@ canon::SplineFeed::Point at(const AxisValues& tip, double weight = 1) {
   return {tip[Axis::x], tip[Axis::y], weight};
 }
 
+// The control keeps the tangent for the next G5 where the shift I J of a back bore is, which may go
+// on behind G5.
+void tell_bore_of_tangent(BlockRun& run) {
+  CycleState& cycle = run.state.cycle;
+  if (cycle.code != 870) return;
+  cycle.i = -run.number_or('P', 0);
+  cycle.j = -run.number_or('Q', 0);
+}
+
+// L may stand in any of the lines: the largest one counts, and 3 at least.
+bool nurbs_order(BlockRun& run) {
+  if (!run.has('L')) return true;
+  const auto order = run.integer('L', 0, 20, "spline_error");
+  if (order) run.state.nurbs_order = std::max(run.state.nurbs_order, *order);
+  return order.has_value();
+}
+
 }  // namespace
 
 void cubic_spline(const CodeRule& rule, BlockRun& run) {
@@ -71,6 +88,7 @@ void cubic_spline(const CodeRule& rule, BlockRun& run) {
   run.emit(std::move(curve));
   run.state.tip = *end;
   memory = {true, -p, -q};
+  tell_bore_of_tangent(run);
 }
 
 void quadratic_spline(const CodeRule& rule, BlockRun& run) {
@@ -89,18 +107,6 @@ void quadratic_spline(const CodeRule& rule, BlockRun& run) {
   run.emit(std::move(curve));
   run.state.tip = *end;
 }
-
-namespace {
-
-// L may stand in any of the lines: the largest one counts, and 3 at least.
-bool nurbs_order(BlockRun& run) {
-  if (!run.has('L')) return true;
-  const auto order = run.integer('L', 0, 20, "spline_error");
-  if (order) run.state.nurbs_order = std::max(run.state.nurbs_order, *order);
-  return order.has_value();
-}
-
-}  // namespace
 
 // Collects control points. The current point is the first one and stays it until G5.3: with G91 all
 // points are counted from there.
