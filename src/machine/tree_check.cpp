@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/random.h"
 #include "machine/kinematics/kinematics_table.h"
-#include "machine/random.h"
 #include "machine/reading.h"
 
 namespace aircut::machine {

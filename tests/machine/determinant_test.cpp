@@ -4,7 +4,7 @@
 
 #include <Eigen/LU>
 
-#include "machine/random.h"
+#include "base/random.h"
 
 namespace aircut::machine {
 namespace {

@@ -6,9 +6,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "base/random.h"
 #include "machine/formula/new_package.h"
 #include "machine/machine.h"
-#include "machine/random.h"
 #include "machine/reading.h"
 
 namespace aircut::machine {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/random.h"
 #include "machine/machine.h"
-#include "machine/random.h"
 
 namespace aircut::machine {
 namespace {

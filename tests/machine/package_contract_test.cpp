@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <numbers>
 
+#include "base/random.h"
 #include "machine/machine.h"
-#include "machine/random.h"
 #include "machine/rotation/head.h"
 #include "samples.h"
 

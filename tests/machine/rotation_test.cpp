@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "machine/random.h"
+#include "base/random.h"
 #include "machine/rotation/cycle600.h"
 #include "machine/rotation/head.h"
 

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "base/random.h"
 #include "machine/kinematics/chain.h"
 #include "machine/kinematics/kinematics_table.h"
 #include "machine/machine.h"
-#include "machine/random.h"
 
 namespace aircut::machine {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "machine/random.h"
+#include "base/random.h"
 #include "machine/reading.h"
 
 namespace aircut::machine {

@@ -3,7 +3,7 @@
 
 #include <numbers>
 
-#include "machine/random.h"
+#include "base/random.h"
 #include "machine/workspace/workspace_files.h"
 
 namespace aircut::machine {

@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "base/random.h"
 #include "collide/collide.h"
 #include "machine/machine.h"
-#include "machine/random.h"
 #include "tool/tool.h"
 
 namespace aircut {
@@ -25,7 +25,6 @@ using machine::JointVector;
 using machine::LinkId;
 using machine::LinkPoses;
 using machine::Machine;
-using machine::Random;
 
 constexpr double promised_gap = 8;  // mm, machines/README.md
 constexpr std::size_t most_triangles = 20000;

@@ -16,10 +16,10 @@
 // has none, so a run can't end with `pass`.
 #include <Eigen/LU>
 
+#include "base/random.h"
 #include "machine/kinematics/model.h"
 #include "machine/kinematics/parameters.h"
 #include "machine/kinematics/robot.h"
-#include "machine/random.h"
 #include "machine/rotation/rotation.h"
 
 namespace aircut::machine {

@@ -14,7 +14,7 @@
 #include <numbers>
 #include <thread>
 
-#include "machine/random.h"
+#include "base/random.h"
 
 namespace aircut::machine {
 
