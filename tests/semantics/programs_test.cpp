@@ -118,6 +118,9 @@ TEST(Programs, OfTheInterpretersTestsEachDoubtIsRight) {
       "comp_inside.ngc length_offset_missing 6",
       "comp_lathe.ngc comp_rapid 11",
       "comp_lathe.ngc length_offset_missing 7",
+      "comp_left.ngc comp_rapid 9",
+      "comp_left.ngc offset_left_on 8",
+      "comp_nose.ngc comp_rapid 13",
       "comp_outside.ngc comp_rapid 11",
       "comp_outside.ngc length_offset_missing 6",
       "comp_short_end.ngc comp_rapid 12",       // G40, then a rapid
