@@ -42,12 +42,9 @@ struct Puma : RobotModel {
     return w;
   }
 
+  /// From the arm's angles θ to the customary ones.
   template <class T>
-  RobotJoints<T> joints_for(const Rotation<T>& R, const Wrist<T>& w,
-                            const RobotBranch& branch) const {
-    RobotJoints<T> q{};
-    const Forearm<T> forearm = solve_arm(p, branch, w.C, w.n, q);
-    q[5] = roll_of_flange(forearm, q, R(Vec3::UnitX()));
+  static RobotJoints<T> customary(RobotJoints<T> q) {
     q[1] = -q[1] - T(right);
     q[2] = -q[2];
     q[4] = T(right) - q[4];
@@ -57,7 +54,11 @@ struct Puma : RobotModel {
   template <class T>
   RobotJoints<T> solve(const RobotPose<T>& tip, const Vec3& tool, const RobotBranch& branch) const {
     const auto R = Rotation<T>::about_fixed(tip[3], tip[4], tip[5]);
-    return joints_for(R, wrist(tip, R, tool.z()), branch);
+    const Wrist<T> w = wrist(tip, R, tool.z());
+    RobotJoints<T> q{};
+    const Forearm<T> forearm = solve_arm(p, branch, w.C, w.n, q);
+    q[5] = roll_of_flange(forearm, q, R(Vec3::UnitX()));
+    return customary(q);
   }
 
   std::optional<std::string> solve_checked(const RobotPose<double>& tip, const Vec3& tool,
@@ -65,15 +66,17 @@ struct Puma : RobotModel {
                                            RobotJoints<double>& q) const {
     const auto R = Rotation<double>::about_fixed(tip[3], tip[4], tip[5]);
     const Wrist<double> w = wrist(tip, R, tool.z());
-    if (auto error = why_no_arm(p, branch, vec3(w.C), vec3(w.n))) return error;
-    q = joints_for(R, w, branch);
+    ArmFit fit;
+    if (auto error = why_no_arm(p, branch, w.C, w.n, fit)) return error;
+    q = customary(joints_of(p, branch, w.C, fit, R(Vec3::UnitX())));
     return std::nullopt;
   }
 
   std::optional<std::string> why_not(const RobotPose<double>& tip, const Vec3& tool,
                                      const RobotBranch& branch) const {
     const auto w = wrist(tip, Rotation<double>::about_fixed(tip[3], tip[4], tip[5]), tool.z());
-    return why_no_arm(p, branch, vec3(w.C), vec3(w.n));
+    ArmFit fit;
+    return why_no_arm(p, branch, w.C, w.n, fit);
   }
 
   tl::expected<AxisValues, ReachError> forward(const JointVector& q, const Vec3& tool) const {

@@ -35,6 +35,16 @@ struct SixAxis : CoaxialRobot {
     return q;
   }
 
+  std::optional<std::string> solve_checked(const RobotPose<double>& pose, const Vec3& tool,
+                                           const RobotBranch& branch,
+                                           RobotJoints<double>& q) const {
+    const auto [C, n] = wrist(pose, tool.z());
+    ArmFit fit;
+    if (auto error = why_no_arm(p, branch, C, n, fit)) return error;
+    q = joints_of(p, branch, C, fit, x_of_flange(pose));
+    return std::nullopt;
+  }
+
   // Every position of the joints has a pose, and a branch that finds it again.
   tl::expected<AxisValues, ReachError> forward(const JointVector& q, const Vec3& tool) const {
     return robot_tip(tool_on_flange(p, {q[0], q[1], q[2], q[3], q[4], q[5]}), tool, true);

@@ -4,53 +4,69 @@ namespace aircut::machine {
 
 namespace {
 
-// |cos θ5| of the arm's solution, without any angle: every one of them is the angle of a vector, so
-// its cosine and sine are quotients. θ2 + 90° = atan2(v, u) + atan2(lift, a2 + l3 K), where both
-// vectors have the length far = √(u² + v²); θ3 = φ − e·acos K; θ1 is the angle of (C_x r − C_y b,
-// C_y r + C_x b), whose length is C_x² + C_y².
-double wrist_factor(const RobotArm& p, const RobotBranch& branch, const Vec3& C, const Vec3& n,
-                    double u, double v, double K) {
-  const double e = branch.elbow, r = u + p.a1;
-  const double out2 = C.x() * C.x() + C.y() * C.y(), far2 = u * u + v * v;
-  const double c1 = (C.x() * r - C.y() * p.b) / out2, s1 = (C.y() * r + C.x() * p.b) / out2;
-  const double l3 = std::sqrt(p.a3 * p.a3 + p.d4 * p.d4), bend = e * std::sqrt((1 - K) * (1 + K));
-  const double along = p.a2 + l3 * K, lift = l3 * bend;
-  const double c2 = (u * along - v * lift) / far2, s2 = (v * along + u * lift) / far2;
-  const double c3 = (p.a3 * K + p.d4 * bend) / l3, s3 = (p.d4 * K - p.a3 * bend) / l3;
-  const double c23 = s2 * c3 + c2 * s3, s23 = s2 * s3 - c2 * c3;  // θ23 = (θ2 + 90°) + θ3 − 90°
-  const double flange_out = c1 * n.x() + s1 * n.y();
-  const double m0 = c23 * n.z() - s23 * flange_out, m1 = s1 * n.x() - c1 * n.y();
-  return std::sqrt(m0 * m0 + m1 * m1);
+// θ2 + 90° = atan2(v, u) + atan2(lift, a2 + l3 K), where both vectors have the length far =
+// √(u² + v²); θ3 = φ − e·acos K; θ1 is the angle of (C_x r − C_y b, C_y r + C_x b), whose length is
+// C_x² + C_y².
+Forearm<double> forearm_of(const RobotArm& p, const RobotBranch& branch, const Vector<double>& C,
+                           const ArmTriangle<double>& t) {
+  const double along1 = 1 / (C[0] * C[0] + C[1] * C[1]);
+  const double l3 = std::sqrt(p.a3 * p.a3 + p.d4 * p.d4);
+  const double bend = branch.elbow * std::sqrt((1 - t.K) * (1 + t.K));
+  const double along = p.a2 + l3 * t.K, lift = l3 * bend;
+  // θ23 = (θ2 + 90°) + θ3 − 90°, with cosines and sines of the first two in lengths.
+  const double c2 = t.u * along - t.v * lift, s2 = t.v * along + t.u * lift;
+  const double c3 = p.a3 * t.K + p.d4 * bend, s3 = p.d4 * t.K - p.a3 * bend;
+  const double along23 = 1 / ((t.u * t.u + t.v * t.v) * l3);
+  return {(C[0] * t.r - C[1] * p.b) * along1, (C[1] * t.r + C[0] * p.b) * along1,
+          (s2 * c3 + c2 * s3) * along23, (s2 * s3 - c2 * c3) * along23};
 }
 
 }  // namespace
 
-std::optional<std::string> why_no_arm(const RobotArm& p, const RobotBranch& branch, const Vec3& C,
-                                      const Vec3& n) {
+std::optional<std::string> why_no_arm(const RobotArm& p, const RobotBranch& branch,
+                                      const Vector<double>& C, const Vector<double>& n,
+                                      ArmFit& fit) {
   // Lengths of an arm are far from where a square could overflow.
-  const auto length_of = [](double x, double y) { return std::sqrt(x * x + y * y); };
-  const double out = length_of(C.x(), C.y());
-  const double r2 = (out - p.b) * (out + p.b);
-  if (!(r2 > robot_singular * robot_singular) || !(out > robot_singular))
+  const double out2 = C[0] * C[0] + C[1] * C[1];
+  if (!(out2 - p.b * p.b > robot_singular * robot_singular) ||
+      !(out2 > robot_singular * robot_singular)) {
+    const double out = std::sqrt(out2);
     return "the centre of the wrist is " + fixed(out, 3) + " mm from the axis of joint 1" +
            (p.b == 0 ? ", where joint 1 can turn freely (a singular pose)"
                      : "; it must stay farther than " + fixed(std::abs(p.b), 3) + " mm");
-  const double u = branch.shoulder * std::sqrt(r2) - p.a1, v = C.z() - p.d1;
-  const double l3 = length_of(p.a3, p.d4), far = length_of(u, v);
-  if (far > p.a2 + l3)
-    return "the centre of the wrist is " + fixed(far - p.a2 - l3, 3) +
-           " mm beyond the reach of the arm, " + fixed(p.a2 + l3, 3) + " mm";
-  if (far < std::abs(p.a2 - l3))
-    return "the centre of the wrist is " + fixed(std::abs(p.a2 - l3) - far, 3) +
-           " mm nearer to the shoulder than the folded arm gets";
-  const double K = (far * far - p.a2 * p.a2 - l3 * l3) / (2 * p.a2 * l3);
-  if (!((1 - K) * (1 + K) > robot_singular * robot_singular))
+  }
+  fit.triangle = arm_triangle(p, branch, C);
+  const double K = fit.triangle.K;
+  if (!((1 - K) * (1 + K) > robot_singular * robot_singular)) {
+    const double u = fit.triangle.u, v = fit.triangle.v;
+    const double l3 = std::sqrt(p.a3 * p.a3 + p.d4 * p.d4), far = std::sqrt(u * u + v * v);
+    if (far > p.a2 + l3)
+      return "the centre of the wrist is " + fixed(far - p.a2 - l3, 3) +
+             " mm beyond the reach of the arm, " + fixed(p.a2 + l3, 3) + " mm";
+    if (far < std::abs(p.a2 - l3))
+      return "the centre of the wrist is " + fixed(std::abs(p.a2 - l3) - far, 3) +
+             " mm nearer to the shoulder than the folded arm gets";
     return "the arm is " + std::string(K > 0 ? "stretched" : "folded") +
            ": joint 3 would need an infinite speed there (a singular pose)";
-  if (!(wrist_factor(p, branch, C, n, u, v, K) > robot_singular))
+  }
+  fit.forearm = forearm_of(p, branch, C, fit.triangle);
+  fit.m = fit.forearm.seen(n);
+  fit.out = std::sqrt(fit.m[0] * fit.m[0] + fit.m[1] * fit.m[1]);
+  if (!(fit.out > robot_singular))
     return "the flange is in line with the forearm, where joint 4 can turn freely (a singular "
            "pose)";
   return std::nullopt;
+}
+
+RobotJoints<double> joints_of(const RobotArm& p, const RobotBranch& branch, const Vector<double>& C,
+                              const ArmFit& fit, const Vector<double>& x6_in_0) {
+  RobotJoints<double> q{};
+  arm_angles(p, branch, C, fit.triangle, q);
+  wrist_angles(branch, fit.m, fit.out, q);
+  const double w = branch.wrist, across = -w / fit.out;
+  q[5] = roll_of(across * fit.m[0], across * fit.m[1], w * fit.out, fit.m[2],
+                 fit.forearm.seen(x6_in_0));
+  return q;
 }
 
 RobotBranch branch_of_arm(const RobotArm& p, double t2, double t3, double t5) {
