@@ -164,7 +164,7 @@
     {title: 'lines', number: true, of: t => t.first_line + ' … ' + t.last_line, sort: t => t.first_line},
   ], run.tools.uses));
   const labels = {cycle_time_s: 'cycle time', feed_s: 'at the feed', rapid_s: 'rapid',
-    dwell_s: 'dwell', tool_change_s: 'tool changes'};
+    dwell_s: 'dwell', tool_change_s: 'tool changes', spindle_wait_s: 'waiting for the spindle'};
   const times = Object.entries(labels)
     .map(([key, label]) => ({label, seconds: report.timing[key]}))
     .filter(row => typeof row.seconds === 'number');
@@ -172,6 +172,17 @@
     {title: 'what', of: t => t.label},
     {title: 'time', number: true, of: t => clock(t.seconds), sort: t => t.seconds},
   ], times));
+  const operations = report.timing.operations || [];
+  if (operations.length > 1)
+    by('time').append(table([
+      {title: 'operation', of: o => o.name || 'line ' + o.line},
+      {title: 'line', number: true, of: o => String(o.line), sort: o => o.line},
+      {title: 'tool', number: true, of: o => o.tool ? 'T' + o.tool : 'none', sort: o => o.tool},
+      {title: 'time', number: true, of: o => clock(o.time_s), sort: o => o.time_s},
+      {title: 'at the feed', number: true, of: o => clock(o.feed_s), sort: o => o.feed_s},
+      {title: 'rapid', number: true, of: o => clock(o.rapid_s), sort: o => o.rapid_s},
+      {title: 'tool changes', number: true, of: o => clock(o.tool_change_s), sort: o => o.tool_change_s},
+    ], operations));
   if (report.stock) {
     by('stock').hidden = false;
     by('stock').append(make('h2', {}, 'Stock'), make('p', {}, 'removed ' +

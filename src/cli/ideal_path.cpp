@@ -59,8 +59,9 @@ std::vector<logbook::Point> chain(const canon::SplineFeed& spline, double z, dou
 
 }  // namespace
 
-IdealPath::IdealPath(interp::Interpreter& interpreter, const AxisValues& start)
-    : interpreter_(interpreter), tip_(start) {}
+IdealPath::IdealPath(interp::Interpreter& interpreter, const AxisValues& start,
+                     bool straight_rapids)
+    : interpreter_(interpreter), straight_rapids_(straight_rapids), tip_(start) {}
 
 void IdealPath::not_checked(const std::string& what) {
   if (std::find(unchecked_.begin(), unchecked_.end(), what) == unchecked_.end())
@@ -128,6 +129,9 @@ bool IdealPath::piece(const canon::Command& command, logbook::IdealPiece& out) {
   out.line = command.span.line;
   // Without P any way round a corner is right.
   out.tolerance = !blends_ ? 0 : tolerance_ > 0 ? tolerance_ + merge_ : infinity;
+  // Straight in the joints: any way there is right.
+  if (probed_ || (!straight_rapids_ && std::holds_alternative<canon::Rapid>(command.action)))
+    out.tolerance = infinity;
   out.start = point(tip_);
   out.end = point(end);
   if (const auto* arc = std::get_if<canon::ArcFeed>(&command.action); arc && arc->turns != 0) {
@@ -144,7 +148,7 @@ bool IdealPath::piece(const canon::Command& command, logbook::IdealPiece& out) {
     out.points = chain(*spline, tip_[Axis::z], sag);
     out.tolerance += sag;
   }
-  out.feed = feed(command, out, end);
+  out.feed = probed_ ? 0 : feed(command, out, end);
   const auto* sync = std::get_if<canon::SyncFeed>(&command.action);
   if (sync && sync->rigid_tap) {
     back_ = out;
@@ -161,8 +165,14 @@ bool IdealPath::next(logbook::IdealPiece& out) {
     return true;
   }
   while (const auto command = interpreter_.next()) {
-    if (const auto* probe = std::get_if<canon::Probe>(&command->action))
+    if (const auto* probe = std::get_if<canon::Probe>(&command->action)) {
+      // Where it tripped, if it did, only the model of that run knew.
+      if (!probed_)
+        not_checked("the path and the feed from the probing move at " + command->span.place() +
+                    " on");
+      probed_ = true;
       interpreter_.resume({.tip = probe->end, .tripped = false});
+    }
     if (std::holds_alternative<canon::SwitchKinematics>(command->action)) {
       not_checked("the path from " + command->span.place() +
                   " on, where the program switches the kinematics");

@@ -11,7 +11,7 @@ namespace aircut::cli {
 class IdealPath {
  public:
   /// Interpreter and job outlive this.
-  IdealPath(interp::Interpreter& interpreter, const AxisValues& start);
+  IdealPath(interp::Interpreter& interpreter, const AxisValues& start, bool straight_rapids);
 
   /// The next piece with way; false at the end.
   bool next(logbook::IdealPiece& out);
@@ -26,6 +26,7 @@ class IdealPath {
   void not_checked(const std::string& what);
 
   interp::Interpreter& interpreter_;
+  bool straight_rapids_;
   AxisValues tip_, tool_offset_;
   canon::FeedMode feed_mode_ = canon::FeedMode::per_minute;
   canon::SetFeedRate rate_;
@@ -33,6 +34,7 @@ class IdealPath {
   bool blends_ = true;
   double rpm_ = 0;
   bool surface_speed_ = false;
+  bool probed_ = false;  ///< a probing move came: what follows depends on what it met
   std::optional<logbook::IdealPiece> back_;  ///< of a rigid tap
   std::vector<std::string> unchecked_;
 };

@@ -69,7 +69,9 @@ bool open_path(const LogArguments& a, Asked& out) {
   out.interpreter =
       std::make_unique<interp::Interpreter>(**program, out.job.tools, out.job.parameters, options,
                                             sub_reader(out.job.sources), out.diagnostics);
-  out.path = std::make_unique<IdealPath>(*out.interpreter, start);
+  out.path = std::make_unique<IdealPath>(
+      *out.interpreter, start,
+      plan::has_straight_rapids(*out.job.machine, out.job.machine->kinematics()));
   return true;
 }
 

@@ -18,6 +18,7 @@
 #include "page/glb.h"
 #include "page/page.h"
 #include "report/line_times.h"
+#include "report/operations.h"
 #include "semantics/semantics.h"
 
 namespace aircut::cli {
@@ -328,6 +329,8 @@ int run_command(const RunArguments& a) {
     if (auto ready = line_times.write_to(a.folder + "/lines.jsonl"); !ready)
       return fail(ready.error());
   simulator.add_observer(line_times);
+  report::Operations operations;
+  simulator.add_observer(operations);
   std::unique_ptr<report::FrameMaker> pictures;
   if (!a.folder.empty() && frames->spec.any()) {
     pictures = std::make_unique<report::FrameMaker>(job.machine, job.tools, *frames);
@@ -411,6 +414,7 @@ int run_command(const RunArguments& a) {
     report.joint_rotary.push_back(joint.kind == machine::JointKind::rotary);
   }
   report.held_by = line_times.held();
+  report.operations = operations.list();
   if (log)
     for (std::size_t j = 0; j < log->peaks().size(); ++j) {
       const auto at = [&](std::size_t order) {

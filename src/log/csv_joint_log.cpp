@@ -32,6 +32,7 @@ enum Flag : unsigned {
   locked_to_spindle = 64,
   warning = 128,
   other_tip = 256,
+  probe_tripped = 512,
 };
 
 unsigned flags_of(const plan::Segment& segment) {
@@ -253,6 +254,7 @@ void CsvJointLog::Impl::row(const plan::Segment& segment, const motion::JointSta
       q[j] = state.q[static_cast<Eigen::Index>(j)] * scale[j];
     watch.row(q, options.period, t, segment.command.span.line);
   }
+  if (segment.trip && state.s >= *segment.trip) flags |= probe_tripped;
   joints(state.v);
   joints(state.a);
   // What the joints really reach, not what was asked for.

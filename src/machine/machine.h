@@ -209,6 +209,7 @@ struct Spindle {
   Vec3 gauge = Vec3::Zero();     ///< F origin, bed axes, all joints zero
   Mat3 R_LF = Mat3::Identity();  ///< axes of F: those of M with all joints zero; the tool is at −Z
   double min_rpm = 0, max_rpm = 0;
+  double acceleration = 0;  ///< rev/s²; 0: it is at speed at once
 };
 
 struct ToolChange {
@@ -308,6 +309,8 @@ class Machine {
   const Spindle& spindle() const { return spindle_; }
   const ToolChange& tool_change() const { return tool_change_; }
   RapidMode rapid() const { return rapid_; }
+  /// Limit of the tool tip's acceleration as a vector, mm/s²; infinity = none.
+  double tip_acceleration() const { return tip_acceleration_; }
   LinkId work_link() const { return work_link_; }
   /// M frame seen from the work link (= from the bed with all joints at zero).
   const Pose& X_LM() const { return X_LM_; }
@@ -336,6 +339,7 @@ class Machine {
   Spindle spindle_;
   ToolChange tool_change_;
   RapidMode rapid_ = RapidMode::coordinated;
+  double tip_acceleration_ = std::numeric_limits<double>::infinity();
   LinkId work_link_ = bed_link;
   Pose X_LM_ = Pose::Identity();
   double collision_tolerance_ = 0.005;

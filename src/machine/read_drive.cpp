@@ -55,6 +55,11 @@ void read_kinematics(config::Table& top, ReadState& state) {
   state.machine.rapid_ = rapid == "joint"    ? RapidMode::joint
                          : rapid == "dogleg" ? RapidMode::dogleg
                                              : RapidMode::coordinated;
+  state.machine.tip_acceleration_ = std::numeric_limits<double>::infinity();
+  if (const auto limit = table->number("a_tcp")) {
+    state.machine.tip_acceleration_ = *limit * state.unit_mm;
+    if (!(*limit > 0)) table->error("a_tcp", "'a_tcp' needs more than 0");
+  }
   if (table->has("tcp")) {
     table->know("tcp");
     table->error("tcp",
@@ -134,6 +139,11 @@ void read_spindle(config::Table& top, ReadState& state) {
   if (const auto angles = table->numbers("angles", 3))
     spindle.R_LF =
         spindle.R_LF * about_fixed_axes(Vec3((*angles)[0], (*angles)[1], (*angles)[2]) * deg);
+  if (const auto acceleration = table->number("acceleration")) {
+    spindle.acceleration = *acceleration;
+    if (!(spindle.acceleration > 0))
+      table->error("acceleration", "'acceleration' needs more than 0, in revolutions per s²");
+  }
   if (const auto rpm = table->numbers("rpm", 2)) {
     spindle.min_rpm = (*rpm)[0];
     spindle.max_rpm = (*rpm)[1];
@@ -150,6 +160,7 @@ Drive drive_of(const std::string& name, const SourceSpan& span, const Machine& m
           .kinematics = machine.kinematics_,
           .spindle = machine.spindle_,
           .rapid = machine.rapid_,
+          .tip_acceleration = machine.tip_acceleration_,
           .work_link = machine.work_link_,
           .X_LM = machine.X_LM_};
 }
@@ -251,6 +262,7 @@ void Drive::put_on(Machine& machine) const {
   machine.kinematics_ = kinematics;
   machine.spindle_ = spindle;
   machine.rapid_ = rapid;
+  machine.tip_acceleration_ = tip_acceleration;
   machine.work_link_ = work_link;
   machine.X_LM_ = X_LM;
 }

@@ -51,6 +51,7 @@ struct Drive {
   std::shared_ptr<const Kinematics> kinematics;
   Spindle spindle;
   RapidMode rapid = RapidMode::coordinated;
+  double tip_acceleration = std::numeric_limits<double>::infinity();
   LinkId work_link = bed_link;
   Pose X_LM = Pose::Identity();
 

@@ -26,7 +26,7 @@ JointMotion::JointMotion(const machine::Machine& machine, const plan::Segment& s
       segment_(&segment) {
   anchors_.push_back(std::move(near));
   const double length = plan::length(segment.path);
-  if (!(length > 0)) return;
+  if (!(length > 0) || std::holds_alternative<plan::JointWay>(segment.path)) return;
   anchors_.reserve(steps + 1);
   for (int i = 1; i <= steps; ++i) {
     const AxisValues tip = plan::evaluate(segment.path, length * i / steps).p;
@@ -50,6 +50,8 @@ tl::expected<JointVector, ReachError> JointMotion::at(double t) const {
 }
 
 tl::expected<JointVector, ReachError> JointMotion::at_path(double s) const {
+  if (const auto* way = std::get_if<plan::JointWay>(&segment_->path))
+    return plan::joint_point(*way, s).q;
   const AxisValues tip = plan::evaluate(segment_->path, s).p;
   return kinematics_->inverse(Target{tip, segment_->tool_offset}, near_at(s));
 }
@@ -71,6 +73,14 @@ tl::expected<JointState, ReachError> JointMotion::state_at(double t) const {
   JointState out;
   out.tip = p.p;
   out.s = s;
+  if (const auto* way = std::get_if<plan::JointWay>(&segment_->path)) {
+    plan::JointPoint joint = plan::joint_point(*way, s);
+    out.q = std::move(joint.q);
+    out.v = v * joint.dq;
+    out.a = a * joint.dq + v * v * joint.ddq;
+    out.path_speed = v * plan::metric_speed(segment_->path, p);
+    return out;
+  }
   if (v == 0 && a == 0) {
     auto q = kinematics_->inverse(target, near_at(s));
     if (!q) return unexpected(q.error());
@@ -91,6 +101,13 @@ bool JointMotion::travel_bound(double ta, double tb, std::span<double> travel) c
   const auto [s0, s1] = segment_->profile.range(ta - segment_->t_start, tb - segment_->t_start);
   if (!(s1 > s0)) {
     std::fill(travel.begin(), travel.end(), 0.0);
+    return true;
+  }
+  if (const auto* way = std::get_if<plan::JointWay>(&segment_->path)) {
+    // No joint turns back; rounding of its values is far below a millionth of them.
+    const JointVector q0 = plan::joint_point(*way, s0).q, q1 = plan::joint_point(*way, s1).q;
+    for (Eigen::Index j = 0; j < q0.size(); ++j)
+      travel[static_cast<std::size_t>(j)] = std::abs(q1[j] - q0[j]) + 1e-12 * std::abs(q1[j]);
     return true;
   }
   machine::TipInterval tip = plan::bounds(segment_->path, s0, s1);

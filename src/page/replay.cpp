@@ -43,7 +43,8 @@ int Replay::pieces_between(const plan::Segment& segment, const plan::ProfileKnot
     pieces = std::max(pieces, way / plan::length(segment.path) * std::abs(arc->angle) / chord);
   }
   constexpr double straight = 2;  // mm
-  if (segment.kinematics || machine_->kinematics().type() != "identity")
+  const bool joints = std::holds_alternative<plan::JointWay>(segment.path);
+  if (joints || segment.kinematics || machine_->kinematics().type() != "identity")
     pieces = std::max(pieces, way / straight);
   return static_cast<int>(std::clamp(std::ceil(pieces), 1.0, 1000.0));
 }

@@ -116,11 +116,17 @@ class CornerForms {
     return out;
   }
 
+  /// True where at() takes the parameter from the table.
+  bool has(double theta) const {
+    const auto i = std::min(static_cast<std::size_t>(theta / step), forms_.size() - 2);
+    return !runs_along_u(forms_[i]) && !runs_along_u(forms_[i + 1]);
+  }
+
   Blend at(double theta, const std::array<AxisValues, 6>& control, double cut) const {
     const double place = theta / step;
     const auto i = std::min(static_cast<std::size_t>(place), forms_.size() - 2);
     const Blend &a = forms_[i], &b = forms_[i + 1];
-    if (runs_along_u(a) || runs_along_u(b)) return make_curve(control);
+    if (!has(theta)) return make_curve(control);
     const double f = place - static_cast<double>(i);
     Blend form;
     for (std::size_t k = 0; k < form.u_of_y.size(); ++k)
@@ -277,9 +283,12 @@ std::optional<CornerBlend> make_blend(const CornerShape& corner, const Demand& d
   if (!(cut > smallest_cut)) return std::nullopt;
   if (lines && demand.of_lines) {
     // What is asked goes exactly with 1 / cut.
-    const double need = demand.of_lines(corner_forms().rates_at(theta), cut);
+    const CornerRates rates = corner_forms().rates_at(theta);
+    const double need = demand.of_lines(rates, cut);
     if (need < 0.93) cut = std::max(cut * need * 1.03, smallest_cut);
-    return CornerBlend{line_blend(corner, shape, theta, cut), cut};
+    CornerBlend made{line_blend(corner, shape, theta, cut), cut};
+    if (corner_forms().has(theta)) made.rates = rates;
+    return made;
   }
   Blend blend = lines ? line_blend(corner, shape, theta, cut) : bezier(corner, shape, cut);
   double need = demand.of_blend(blend);

@@ -23,13 +23,15 @@ struct CornerRates {
   struct Place {
     std::array<double, 2> d, dd;
   };
-  std::array<Place, 9> at;
+  std::array<Place, 17> at;
   double length = 0;
 };
 
 struct CornerBlend {
   Blend blend;
   double cut = 0;  ///< taken off each side, along s
+  /// Between lines; nothing where the table does not have this curve's parameter.
+  std::optional<CornerRates> rates = {};
 };
 
 /// How large the acceleration on a blend would be at the wanted speed, as a share of the limits.

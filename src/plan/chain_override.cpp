@@ -78,6 +78,7 @@ void Chain::give_part(Ride ride, double factor) {
   part.failure.reset();
   front.segment.path = sub_path(front.segment.path, s, whole);
   front.segment.u0 = part.u1;
+  if (front.segment.trip) *front.segment.trip -= s;
   front.segment.sync_problem.clear();
   Grid begin = grid_before(front.grid, s);
   scale_caps(begin, factor);

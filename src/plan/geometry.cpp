@@ -144,7 +144,8 @@ Path sub_path(const Path& path, double s0, double s1) {
             out.begin = blend.begin + s0;
             out.length = s1 - s0;
             return out;
-          }},
+          },
+          [](const JointWay& way) -> Path { return way; }},  // never cut
       path);
 }
 
@@ -159,7 +160,8 @@ Metric metric_of(const Path& path) {
                      for (const Axis axis : all_axes)
                        way[axis] += std::abs(blend.control[i][axis] - blend.control[i - 1][axis]);
                    return metric_of(way);
-                 }},
+                 },
+                 [](const JointWay& way) { return metric_of(way.end - way.start); }},
       path);
 }
 

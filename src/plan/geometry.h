@@ -30,6 +30,8 @@ Blend make_curve(const std::array<AxisValues, 6>& control);
 Blend scaled_curve(const Blend& like, const std::array<AxisValues, 6>& control, double scale);
 /// True where no such parameter was found: a way that nearly stops inside (a cusp).
 bool runs_along_u(const Blend& curve);
+/// A rapid that is straight in the joints.
+PathPoint evaluate_joint_way(const JointWay& way, double s);
 /// The part of a path between two values of s; its own s starts at 0 again.
 Path sub_path(const Path& path, double s0, double s1);
 /// Metric of a path (none for a hold).

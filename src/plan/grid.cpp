@@ -9,12 +9,15 @@
 //   time law  The profile has one acceleration per interval. Near the ends of a piece it must be
 //             able to ramp: with d = b_cap / (2 u_max), the way of a ramp from rest, intervals are
 //             no longer than max(d / 6, 0.2 × distance to the nearer end) before the last halving.
+//   tip       Its acceleration p' u + p'' b lies in the plane of p' and p''; a circle there is the
+//             limit. Rows are the sides of a polygon with 64 corners on that circle.
 //   product   β(s) b(s) is a product of two linear functions: it exceeds its end values by at most
 //             |Δβ| |Δb| / 4. q' sqrt(b): by (Δq'/q')² / 4 of the limit.
 #include "plan/grid.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace aircut::plan {
 namespace {
@@ -29,15 +32,21 @@ constexpr double moment = 1e-3;                // s
 constexpr double speed_tolerance = 1e-3;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+constexpr int tip_sides = most_tip_rows;  // pairs of sides of the tip's polygon
+
 struct Node {
   double s = 0;
   JointPoint joint;
   JointVector alpha, beta;
-  AxisValues d;             ///< p'
+  AxisValues d, dd;  ///< p', p''
+  double tip_alpha = 0, tip_along = 0,
+         tip_bend = 0;      ///< |p'|, p'' along p' and across it, by limit
   double metric_speed = 1;  ///< |p'| along the feed metric
   double cap = infinity, feed_cap = infinity, joint_cap = infinity;
   Cause why, joint_why;
 };
+
+Vec3 xyz_of(const AxisValues& p) { return {p[Axis::x], p[Axis::y], p[Axis::z]}; }
 
 // The joint with the largest share of its limit.
 signed char largest_of(const JointVector& shares) {
@@ -49,8 +58,9 @@ signed char largest_of(const JointVector& shares) {
 class GridMaker {
  public:
   GridMaker(const JointPath& path, Metric metric, double feed, const JointLimits& limits,
-            MadeGrid& out)
+            const KnownRates* known, MadeGrid& out)
       : path_(path),
+        known_(std::holds_alternative<Blend>(path.path()) ? known : nullptr),
         metric_(metric),
         feed_(feed),
         limits_(limits),
@@ -68,7 +78,10 @@ class GridMaker {
   bool split(const Node& a, const Node& b, int depth);
   void add(const Node& n, double room = 1);
 
+  bool from_table(double s, Node& out) const;
+
   const JointPath& path_;
+  const KnownRates* known_;
   Metric metric_;
   double feed_;
   const JointLimits& limits_;
@@ -80,11 +93,33 @@ class GridMaker {
   std::optional<GridFailure> failure_;
 };
 
+// The derivatives at a place of the table. The joints themselves are not needed inside a piece.
+bool GridMaker::from_table(double s, Node& out) const {
+  const Blend& blend = std::get<Blend>(path_.path());
+  const double last = static_cast<double>(known_->rates.at.size() - 1);
+  const double place = (blend.begin + s) / blend.whole * last, k = std::round(place);
+  if (!(std::abs(place - k) < 1e-9)) return false;
+  const auto& [d, dd] = known_->rates.at[static_cast<std::size_t>(k)];
+  out.d = d[0] * known_->d_in + d[1] * known_->d_out;
+  if (limits_.tip_a < infinity)
+    out.dd = (dd[0] / known_->cut) * known_->d_in + (dd[1] / known_->cut) * known_->d_out;
+  out.joint.dq = d[0] * known_->dq_in + d[1] * known_->dq_out;
+  out.joint.ddq = (dd[0] / known_->cut) * known_->dq_in + (dd[1] / known_->cut) * known_->dq_out;
+  return true;
+}
+
 std::optional<ReachError> GridMaker::node(double s, const JointVector& near, Node& out) const {
+  if (known_ && from_table(s, out)) {
+    out.joint.q = near;
+    out.s = s;
+    limit(out);
+    return std::nullopt;
+  }
   const PathPoint p = evaluate(path_.path(), s);
   if (auto why = path_.point(p, near, out.joint)) return why;
   out.s = s;
   out.d = p.d;
+  out.dd = p.dd;
   limit(out);
   return std::nullopt;
 }
@@ -93,6 +128,14 @@ std::optional<ReachError> GridMaker::node(double s, const JointVector& near, Nod
 void GridMaker::limit(Node& out) const {
   out.alpha = out.joint.dq.cwiseQuotient(limits_.a);
   out.beta = out.joint.ddq.cwiseQuotient(limits_.a);
+  if (limits_.tip_a < infinity) {
+    const Vec3 d = xyz_of(out.d), dd = xyz_of(out.dd);
+    const double size = d.norm();
+    out.tip_alpha = size / limits_.tip_a;
+    out.tip_along = size > 0 ? dd.dot(d) / size / limits_.tip_a : 0;
+    out.tip_bend = std::sqrt(std::max(
+        dd.squaredNorm() / (limits_.tip_a * limits_.tip_a) - out.tip_along * out.tip_along, 0.0));
+  }
   out.metric_speed = metric_length(metric_, out.d);
   if (feed_ < infinity && out.metric_speed > 0) {
     out.cap = out.feed_cap = (feed_ / out.metric_speed) * (feed_ / out.metric_speed);
@@ -133,13 +176,16 @@ std::optional<double> GridMaker::row_error(const Node& a, const Node& m, const N
   double worst = 0;
   const double ds = b.s - a.s;
   const double end_distance = std::min(b.s, length_ - a.s);
-  if (ds > std::max(ramp_ / 6, 0.2 * end_distance)) return std::nullopt;
+  const double growth = grid_.tip_rows > 0 && m.tip_bend > 0 ? 0.05 : 0.2;
+  if (ds > std::max(ramp_ / 6, growth * end_distance)) return std::nullopt;
   // The largest speed is the cap; the largest acceleration that of standstill or less than twice
   // as much where curvature helps.
-  const double alpha = std::max(a.alpha.cwiseAbs().maxCoeff(), b.alpha.cwiseAbs().maxCoeff());
+  const double alpha = std::max(
+      {a.alpha.cwiseAbs().maxCoeff(), b.alpha.cwiseAbs().maxCoeff(), a.tip_alpha, b.tip_alpha});
   const double u = 2 / std::max(alpha, 1e-300);
-  const double bend = std::max({a.beta.cwiseAbs().maxCoeff(), b.beta.cwiseAbs().maxCoeff(),
-                                m.beta.cwiseAbs().maxCoeff(), 1e-300});
+  const double bend =
+      std::max({a.beta.cwiseAbs().maxCoeff(), b.beta.cwiseAbs().maxCoeff(),
+                m.beta.cwiseAbs().maxCoeff(), a.tip_bend, b.tip_bend, m.tip_bend, 1e-300});
   // Curvature alone holds b near 1 / |β|; twice that where acceleration helps.
   const double speed2 = std::min(std::max({a.cap, m.cap, b.cap}), 2 / bend);
   const double speed = std::sqrt(speed2);
@@ -154,6 +200,13 @@ std::optional<double> GridMaker::row_error(const Node& a, const Node& m, const N
     const double change = (b.alpha[j] - a.alpha[j]) * to_v;
     if (change * change > 4 * speed_tolerance) return std::nullopt;
   }
+  if (grid_.tip_rows > 0) {
+    const double off = std::abs(m.tip_bend - (a.tip_bend + b.tip_bend) / 2) +
+                       std::abs(m.tip_along - (a.tip_along + b.tip_along) / 2);
+    const double product = std::abs(b.tip_bend - a.tip_bend) * std::min(ds * u, speed2) / 8;
+    worst = std::max(worst, off * speed2 + product);
+    if (worst > row_tolerance_) return std::nullopt;
+  }
   if (feed_ < infinity) {
     const double off = std::abs(m.metric_speed - (a.metric_speed + b.metric_speed) / 2);
     const double change = (b.metric_speed - a.metric_speed) / m.metric_speed;
@@ -167,8 +220,18 @@ void GridMaker::add(const Node& n, double room) {
   if (!grid_.at.empty()) grid_.at.back().room = room;
   grid_.at.push_back({n.s, n.cap, 1, n.why, n.feed_cap, n.joint_cap, n.joint_why});
   if (grid_.uniform) return;
+  const double inside =
+      std::cos(std::numbers::pi / (2 * tip_sides));  // the polygon's corners are on it
+  const auto side = [&](int i, double along, double across) {
+    const double angle = std::numbers::pi * i / tip_sides;
+    // At a right angle exactly none of what goes along.
+    const double cosine = 2 * i == tip_sides ? 0 : std::cos(angle);
+    return (cosine * along + std::sin(angle) * across) / inside;
+  };
   grid_.rows.insert(grid_.rows.end(), n.alpha.begin(), n.alpha.end());
+  for (int i = 0; i < grid_.tip_rows; ++i) grid_.rows.push_back(side(i, n.tip_alpha, 0));
   grid_.rows.insert(grid_.rows.end(), n.beta.begin(), n.beta.end());
+  for (int i = 0; i < grid_.tip_rows; ++i) grid_.rows.push_back(side(i, n.tip_along, n.tip_bend));
 }
 
 // Adds the nodes behind `a` up to and with `b`. False after a failure.
@@ -221,19 +284,27 @@ std::optional<GridFailure> GridMaker::make(bool identity, const JointVector& nea
   } else if (const auto why = node(length_, guess, last)) {
     return GridFailure{0, true, why->reason};
   }
+  if (known_)
+    if (auto q = path_.joints(length_, guess)) last.joint.q = std::move(*q);
   const bool uniform = is_uniform(identity, first, last);
   if (uniform && first.joint.dq.isZero(0) && last.joint.dq.isZero(0))
     return GridFailure{0, false, "no joint of the machine moves this axis"};
   grid_.at.clear();
   grid_.rows.clear();
-  grid_.joints = static_cast<int>(first.alpha.size());
+  grid_.tip_rows = limits_.tip_a < infinity && metric_ == Metric::xyz ? tip_sides : 0;
+  grid_.joints = static_cast<int>(first.alpha.size()) + grid_.tip_rows;
   grid_.uniform = uniform;
-  const double alpha = std::max(first.alpha.cwiseAbs().maxCoeff(), 1e-300);
+  const double of_joints = std::max(first.alpha.cwiseAbs().maxCoeff(), 1e-300);
+  const double alpha = std::max(of_joints, first.tip_alpha);
   if (grid_.uniform) {
     grid_.uniform_a = 1 / alpha;
-    grid_.uniform_joint = largest_of(first.alpha);
+    grid_.uniform_joint =
+        first.tip_alpha > of_joints ? static_cast<signed char>(-1) : largest_of(first.alpha);
   }
   ramp_ = std::min(std::max(first.cap, last.cap) * alpha / 2, length_);
+  // On a bend the tip's limit leaves less the faster it is: the ramp is no straight line.
+  if (const double bend = std::max(first.tip_bend, last.tip_bend); grid_.tip_rows > 0 && bend > 0)
+    ramp_ = std::min(ramp_, alpha / (8 * bend));
   if (std::holds_alternative<Blend>(path_.path())) {
     const double fastest = std::sqrt(std::max(first.cap, last.cap));
     row_tolerance_ = length_ < moment * fastest ? moment_row_tolerance : blend_row_tolerance;
@@ -331,9 +402,9 @@ Grid grid_behind(const Grid& grid, double s) {
 std::optional<GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
                                      Metric metric, double feed, const AxisValues& tool_offset,
                                      const JointLimits& limits, const JointVector& near,
-                                     MadeGrid& out, bool goes_on) {
+                                     MadeGrid& out, bool goes_on, const KnownRates* known) {
   const JointPath joints(kinematics, path, tool_offset);
-  return GridMaker(joints, metric, feed, limits, out)
+  return GridMaker(joints, metric, feed, limits, known, out)
       .make(kinematics.type() == "identity", near, goes_on);
 }
 

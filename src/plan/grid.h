@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "plan/geometry.h"
+#include "plan/blend.h"
 #include "plan/joint_path.h"
 
 namespace aircut::plan {
@@ -11,8 +11,11 @@ namespace aircut::plan {
 /// Limits of the joints, by JointId: mm/s, mm/s², mm/s³ or rad/s …; the jerk's may be infinite.
 struct JointLimits {
   machine::JointVector v, a, j;
+  double tip_a = std::numeric_limits<double>::infinity();  ///< of the tip as a vector, mm/s²
   bool has_jerk() const { return !j.array().isInf().all(); }
 };
+
+inline constexpr int most_tip_rows = 32;
 
 struct GridNode {
   double s = 0;
@@ -32,7 +35,8 @@ struct Grid {
   bool uniform = false;
   double uniform_a = 0;           ///< largest |u| of a uniform piece
   signed char uniform_joint = 0;  ///< whose limit that is
-  int joints = 0;
+  int joints = 0;  ///< rows of a node: the joints', then `tip_rows` of the tip's limit
+  int tip_rows = 0;
   std::vector<GridNode> at;       ///< by s, first 0, last the length
   std::vector<double> rows;       ///< per node: alpha of every joint, then beta of every joint
   machine::JointVector dq_start;  ///< q' at the start
@@ -73,12 +77,22 @@ struct GridFailure {
   std::string reason;
 };
 
+/// What is known of a blend between two lines where the joints are linear in the tip: at the places
+/// of `rates` the curve need not be looked at.
+struct KnownRates {
+  CornerRates rates;
+  double cut = 0;
+  AxisValues d_in, d_out;  ///< directions of the lines, by their XYZ length
+  machine::JointVector dq_in, dq_out;
+};
+
 /// `near`: joints at the start. `feed` limits the tip's speed along `metric` (infinity: a rapid).
 /// Fills `out`, whose memory is used again. `goes_on`: `out` holds the piece before this one, which
 /// is the other part of the same curve.
 std::optional<GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
                                      Metric metric, double feed, const AxisValues& tool_offset,
                                      const JointLimits& limits, const machine::JointVector& near,
-                                     MadeGrid& out, bool goes_on = false);
+                                     MadeGrid& out, bool goes_on = false,
+                                     const KnownRates* known = nullptr);
 
 }  // namespace aircut::plan

@@ -47,7 +47,7 @@ JerkStage::JerkStage(const machine::Kinematics& kinematics, const JointLimits& l
 }
 
 // What comes in between two plans.
-double JerkStage::window_time() const { return 5 * window_.brake_time + 0.5; }
+double JerkStage::window_time() const { return 10 * window_.brake_time + 1; }
 
 void JerkStage::push(Segment segment, Grid grid, double scale) {
   WayItem item;

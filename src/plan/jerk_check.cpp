@@ -86,8 +86,10 @@ void LogSamples::pass(const Segment& segment, double clock) {
   for (; number * period_ < end; ++number) {
     if (number <= past_.back().number) continue;
     const double s = segment.profile.at(std::max(number * period_ - clock, 0.0)).s;
-    auto q = kinematics_of(segment, kinematics_)
-                 .inverse({evaluate(segment.path, s).p, segment.tool_offset}, past_.back().q);
+    const auto* way = std::get_if<JointWay>(&segment.path);
+    auto q = way ? tl::expected<machine::JointVector, machine::ReachError>(joint_point(*way, s).q)
+                 : kinematics_of(segment, kinematics_)
+                       .inverse({evaluate(segment.path, s).p, segment.tool_offset}, past_.back().q);
     past_.push_back({number, q ? std::move(*q) : past_.back().q});
     if (past_.size() > 4) past_.pop_front();
   }

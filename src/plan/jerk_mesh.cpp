@@ -138,14 +138,22 @@ void Mesher::put_places() {
   }
   places_.push_back(place(end_));
   const auto joints = static_cast<std::ptrdiff_t>(w_.joints);
+  const auto stations_end = places_.size();
   if (w_.start.from_rest) {
     start_jerk_ = path_jerk(w_.alpha.data(), w_.rate);
     put_stop(begin_, start_jerk_, 1);
   }
+  const auto start_end = places_.size();
   end_jerk_ = path_jerk(w_.alpha.data() + w_.alpha.size() - joints, w_.rate);
   put_stop(end_, end_jerk_, -1);
-  std::sort(places_.begin(), places_.end(),
-            [](const Place& a, const Place& b) { return a.x < b.x; });
+  // Three runs, each in order (the last one backwards).
+  const auto before = [](const Place& a, const Place& b) { return a.x < b.x; };
+  const auto at = [this](std::size_t i) {
+    return places_.begin() + static_cast<std::ptrdiff_t>(i);
+  };
+  std::reverse(at(start_end), places_.end());
+  std::inplace_merge(places_.begin(), at(stations_end), at(start_end), before);
+  std::inplace_merge(places_.begin(), at(start_end), places_.end(), before);
   const auto same = [](const Place& a, const Place& b) { return a.x == b.x; };
   places_.erase(std::unique(places_.begin(), places_.end(), same), places_.end());
 }

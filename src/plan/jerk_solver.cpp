@@ -278,7 +278,7 @@ void Solver::directions(double mu) {
 JerkSolution Solver::run() {
   JerkSolution out;
   move(0, 0, 0.1);
-  const double start = 0.3 * objective_ / static_cast<double>(count_);
+  const double start = objective_ / static_cast<double>(count_);
   for (Joint& joint : joints_)
     for (Rows* rows : {&joint.acceleration, &joint.jerk})
       for (std::size_t side = 0; side < 2; ++side)

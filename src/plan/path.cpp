@@ -14,6 +14,7 @@
 //         its way is no longer than the control polygon, axis by axis).
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "plan/geometry.h"
@@ -234,6 +235,16 @@ machine::TipInterval bounds_blend(const Blend& blend, double s0, double s1) {
   return out;
 }
 
+// Only its joints have bounds (motion.h).
+machine::TipInterval boundless() {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  machine::TipInterval out;
+  out.low.value.fill(-infinity);
+  out.high.value.fill(infinity);
+  out.travel.value.fill(infinity);
+  return out;
+}
+
 }  // namespace
 
 Vec3 foot_of(const Arc& arc) {
@@ -245,7 +256,8 @@ double length(const Path& path) {
   return std::visit(
       overloaded{[](const Hold&) { return 0.0; }, [](const Line& line) { return line.length; },
                  [](const Arc& arc) { return arc.length; },
-                 [](const Blend& blend) { return blend.length; }},
+                 [](const Blend& blend) { return blend.length; },
+                 [](const JointWay& way) { return way.length; }},
       path);
 }
 
@@ -255,7 +267,8 @@ PathPoint evaluate(const Path& path, double s) {
                                },
                                [s](const Line& line) { return evaluate_line(line, s); },
                                [s](const Arc& arc) { return evaluate_arc(arc, s); },
-                               [s](const Blend& blend) { return evaluate_blend(blend, s); }},
+                               [s](const Blend& blend) { return evaluate_blend(blend, s); },
+                               [s](const JointWay& way) { return evaluate_joint_way(way, s); }},
                     path);
 }
 
@@ -265,7 +278,8 @@ machine::TipInterval bounds(const Path& path, double s0, double s1) {
                                },
                                [&](const Line& line) { return bounds_line(line, s0, s1); },
                                [&](const Arc& arc) { return bounds_arc(arc, s0, s1); },
-                               [&](const Blend& blend) { return bounds_blend(blend, s0, s1); }},
+                               [&](const Blend& blend) { return bounds_blend(blend, s0, s1); },
+                               [](const JointWay&) { return boundless(); }},
                     path);
 }
 

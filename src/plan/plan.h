@@ -18,6 +18,24 @@
 
 namespace aircut::plan {
 
+/// From `t` on (s since the segment's start): s(τ) = s + vτ + aτ²/2 + jτ³/6 with τ = time − t.
+struct ProfileKnot {
+  double t = 0, s = 0, v = 0, a = 0, j = 0;
+};
+
+/// s(t) as polynomial pieces; the last knot is the end.
+struct SpeedProfile {
+  std::vector<ProfileKnot> knots;
+  double duration() const { return knots.empty() ? 0 : knots.back().t; }
+  struct State {
+    double s = 0, v = 0, a = 0;
+  };
+  /// `t` in [0, duration]; clamped.
+  State at(double t) const;
+  /// Smallest and largest s over [t0, t1] (s never runs backwards).
+  std::pair<double, double> range(double t0, double t1) const { return {at(t0).s, at(t1).s}; }
+};
+
 /// The tip stands still.
 struct Hold {
   AxisValues at;
@@ -52,7 +70,19 @@ struct Blend {
   bool xyz_only = false;  ///< the other axes stand still
 };
 
-using Path = std::variant<Hold, Line, Arc, Blend>;
+/// A rapid that is straight in no more than the joints (RapidMode joint or dogleg), from rest to
+/// rest. s counts along the straight way between its ends.
+struct JointWay {
+  AxisValues start, end;
+  machine::JointVector from, to;
+  AxisValues tool_offset;
+  const machine::Kinematics* kinematics = nullptr;  ///< outlives it
+  double length = 0;
+  std::vector<SpeedProfile> laws;  ///< dogleg: of each joint; empty: all in step
+  double seconds = 0;              ///< of the longest law
+};
+
+using Path = std::variant<Hold, Line, Arc, Blend, JointWay>;
 
 double length(const Path& path);
 struct PathPoint {
@@ -61,7 +91,8 @@ struct PathPoint {
   AxisValues dd;  ///< second derivative by s
 };
 PathPoint evaluate(const Path& path, double s);
-/// Box of the positions for s in [s0, s1] and the way of each axis; exact or larger.
+/// Box of the positions for s in [s0, s1] and the way of each axis; exact or larger. Without bounds
+/// for a JointWay.
 machine::TipInterval bounds(const Path& path, double s0, double s1);
 
 /// The path of a command from where the tip is, as it is programmed; a Hold for one that does not
@@ -84,10 +115,23 @@ tl::expected<JointPoint, machine::ReachError> joint_point(const machine::Kinemat
                                                           const AxisValues& dd_tip,
                                                           const machine::JointVector& near);
 
-/// From `t` on (s since the segment's start): s(τ) = s + vτ + aτ²/2 + jτ³/6 with τ = time − t.
-struct ProfileKnot {
-  double t = 0, s = 0, v = 0, a = 0, j = 0;
+/// Joints of such a rapid.
+JointPoint joint_point(const JointWay& way, double s);
+/// A rapid of the machine's mode, with its time law, and no way when nothing moves. Error: the end
+/// is out of reach.
+struct JointRapid {
+  JointWay way;
+  SpeedProfile profile;
 };
+tl::expected<JointRapid, machine::ReachError> joint_rapid(const machine::Machine& machine,
+                                                          const machine::Kinematics& kinematics,
+                                                          const machine::JointVector& from,
+                                                          const AxisValues& start,
+                                                          const AxisValues& end,
+                                                          const AxisValues& tool_offset);
+/// True where rapids are straight in the program's axes. (Where each joint is an axis, straight in
+/// the joints is the same.)
+bool has_straight_rapids(const machine::Machine& machine, const machine::Kinematics& kinematics);
 
 enum class LimitedBy : unsigned char { none, feed, velocity, acceleration, jerk };
 
@@ -96,19 +140,6 @@ struct Cause {
   LimitedBy by = LimitedBy::none;
   signed char joint = -1;  ///< JointId; −1: no joint's, as the feed
   auto operator<=>(const Cause&) const = default;
-};
-
-/// s(t) as polynomial pieces; the last knot is the end.
-struct SpeedProfile {
-  std::vector<ProfileKnot> knots;
-  double duration() const { return knots.empty() ? 0 : knots.back().t; }
-  struct State {
-    double s = 0, v = 0, a = 0;
-  };
-  /// `t` in [0, duration]; clamped.
-  State at(double t) const;
-  /// Smallest and largest s over [t0, t1] (s never runs backwards).
-  std::pair<double, double> range(double t0, double t1) const { return {at(t0).s, at(t1).s}; }
 };
 
 enum class MotionKind : unsigned char {
@@ -164,13 +195,17 @@ struct Segment {
   double feed = 0;           ///< commanded speed along the feed metric, mm/s (rad/s); 0 = rapid
   int tool = 0;              ///< in the spindle; during a tool change still the old one
   double spindle_rpm = 0;    ///< signed, clockwise positive
-  int work_system = 1;       ///< 1 = G54 … 9 = G59.3
+  /// Where the motion waits for the spindle: its speed at the start; it changes evenly to
+  /// spindle_rpm.
+  std::optional<double> spindle_from;
+  int work_system = 1;  ///< 1 = G54 … 9 = G59.3
   /// The part of the block's path that this segment covers (a block may be split by blends).
   double u0 = 0, u1 = 1;
   Overridable overridable;
-  Cause limited_by;          ///< what held the speed longest
-  std::optional<Sync> sync;  ///< of synchronised motion
-  std::string sync_problem;  ///< why the axis can't keep to the spindle; empty = it can
+  Cause limited_by;            ///< what held the speed longest
+  std::optional<Sync> sync;    ///< of synchronised motion
+  std::optional<double> trip;  ///< of a probing move: s at which the probe trips
+  std::string sync_problem;    ///< why the axis can't keep to the spindle; empty = it can
   /// Why a joint passes its limit of acceleration or jerk here; empty = none does.
   std::string limit_problem;
   std::optional<Failure> failure;  ///< the run ends here
@@ -224,6 +259,12 @@ class Planner {
 
   /// Appends a command. Error: a command that no model exists for (kind `unsupported_code`).
   Expected<void> push(const canon::Command& command);
+  /// A probing move whose probe trips `trip` along the feed metric from its start: it brakes there
+  /// and rests a little farther on, at most at its end. Errors as those of push().
+  Expected<void> push_probe(const canon::Command& command, double trip);
+  /// The straight way of a command from there, at 1 mm (or rad) a second: to look at before it is
+  /// planned.
+  Segment straight_way(const canon::Command& command) const;
   /// Everything pushed so far becomes final: the last motion ends at rest.
   void flush();
   /// The tip at the end of everything pushed, in the kinematics in force then.

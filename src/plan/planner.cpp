@@ -25,13 +25,20 @@ class Planner::Impl {
   Expected<void> push(const canon::Command& command);
   void flush() { merger_.stop(); }
   std::optional<Segment> take() { return shaper_.take(); }
+  Expected<void> probe(const canon::Command& command, std::optional<double> trip);
   const AxisValues& tip() const { return tip_; }
+  Segment straight_way(const canon::Command& command) const;
 
  private:
-  Expected<void> move(const canon::Command& command, Path path, MotionKind kind, double feed);
+  /// Where a probe trips (s), and the share of the programmed way that is gone.
+  struct Trip {
+    double s, share;
+  };
+  Expected<void> move(const canon::Command& command, Path path, MotionKind kind, double feed,
+                      std::optional<Trip> trip = {});
   Expected<void> feed_move(const canon::Command& command, Path path, MotionKind kind);
+  Expected<void> rapid(const canon::Command& command, const AxisValues& end);
   Expected<void> spline(const canon::Command& command, const canon::SplineFeed& spline);
-  Expected<void> probe(const canon::Command& command, const canon::Probe& probe);
   Expected<void> sync(const canon::Command& command, const canon::SyncFeed& sync);
   void push_sync(const canon::Command& command, const Line& line, const canon::SyncFeed& sync,
                  const Shaper::StraightRun& run, SyncLaw law);
@@ -43,6 +50,7 @@ class Planner::Impl {
                          MotionKind kind = MotionKind::idle);
   Expected<void> switch_kinematics(const canon::Command& command,
                                    const canon::SwitchKinematics& to);
+  Expected<void> spindle(const canon::Command& command, double before);
   Expected<void> no_model(const canon::Command& command, const char* what) const;
   double rpm() const;
 
@@ -73,6 +81,16 @@ Diagnostic at(const canon::Command& command, std::string kind, std::string messa
   return make_error(std::move(kind), command.span, std::move(message));
 }
 
+// Way of the hardest braking from the speed that is reached `way` after a rest.
+double braking_way(double way, double feed, StraightLimits limits) {
+  limits.v = std::min(limits.v, feed);
+  double v = 0;
+  for (const ProfileKnot& knot : s_curve(2 * way, limits).knots) v = std::max(v, knot.v);
+  const double ramp = limits.a * limits.a / limits.j;  // change of speed that reaches a
+  const double t = v >= ramp ? v / limits.a + limits.a / limits.j : 2 * std::sqrt(v / limits.j);
+  return v * t / 2;
+}
+
 }  // namespace
 
 Planner::Impl::Impl(const machine::Machine& machine, const machine::JointVector& start,
@@ -95,6 +113,13 @@ Planner::Impl::Impl(const machine::Machine& machine, const machine::JointVector&
       broken_ = make_error("machine_invalid",
                            "joint " + joint.name + " needs vmax and amax above 0 to be moved");
   }
+  if (std::isfinite(machine.tip_acceleration()))
+    for (int j = 0; j < machine.joint_count(); ++j)
+      if (std::isfinite(machine.joint(machine::JointId{j}).jmax))
+        broken_ =
+            make_error("machine_invalid",
+                       "a limit of the tip's acceleration (a_tcp) together with limits of the "
+                       "joints' jerk (jmax) can't be planned; take one of them out");
   if (const auto wrong = wrong_overrides(options.overrides); !wrong.empty())
     broken_ = make_error("overrides_invalid", wrong);
   auto tip = machine.kinematics().forward(start, tool_offset_);
@@ -145,6 +170,18 @@ Expected<void> Planner::Impl::barrier(const canon::Command& command, double seco
   return {};
 }
 
+// The motion waits until the spindle has the new speed. One that is stopped runs down by itself.
+Expected<void> Planner::Impl::spindle(const canon::Command& command, double before) {
+  const double acceleration = machine_.spindle().acceleration, change = rpm() - before;
+  if (!(acceleration > 0) || rpm() == 0 || change == 0 || css_) return barrier(command);
+  Segment out = segment(command, MotionKind::idle);
+  out.spindle_from = before;
+  out.profile.knots = {{0, 0, 0, 0, 0}, {std::abs(change) / 60 / acceleration, 0, 0, 0, 0}};
+  merger_.stop();
+  merger_.push_still(std::move(out));
+  return {};
+}
+
 Expected<void> Planner::Impl::no_model(const canon::Command& command, const char* what) const {
   return unexpected(at(command, "unsupported_code",
                        std::string(what) + " has no motion model, so the program can't be planned "
@@ -180,9 +217,13 @@ Expected<double> Planner::Impl::feed_of(Metric metric, double way) const {
 }
 
 Expected<void> Planner::Impl::move(const canon::Command& command, Path path, MotionKind kind,
-                                   double feed) {
+                                   double feed, std::optional<Trip> trip) {
   Move out;
   out.segment = segment(command, kind);
+  if (trip) {
+    out.segment.trip = trip->s;
+    out.segment.u1 = trip->share;
+  }
   out.metric = metric_of(path);
   if (out.metric == Metric::none) {
     // Nothing moves: no motion, but the command still reaches the listeners.
@@ -236,12 +277,57 @@ Expected<void> Planner::Impl::spline(const canon::Command& command,
   return {};
 }
 
-// Without a model of what is touched: to the end of the move, where it comes to rest.
-Expected<void> Planner::Impl::probe(const canon::Command& command, const canon::Probe& probe) {
+// Straight in the joints. Only where all joints are driven: what follows from them by the closing
+// of a mechanism has no proven bound on such a way.
+Expected<void> Planner::Impl::rapid(const canon::Command& command, const AxisValues& end) {
+  if (kinematics_->passive_count() > 0)
+    return no_model(command,
+                    "a rapid that is not coordinated, on a machine with passive joints "
+                    "(machine key `rapid`)");
   merger_.stop();
-  auto done = feed_move(command, make_line(tip_, probe.end), MotionKind::probe);
+  auto found = joint_rapid(machine_, *kinematics_, shaper_.joints(), tip_, end, tool_offset_);
+  // What can't be reached is told by the straight way.
+  if (!found) return move(command, make_line(tip_, end), MotionKind::rapid, infinity);
+  if (found->profile.knots.empty()) return still(command);
+  Segment out = segment(command, MotionKind::rapid);
+  const machine::JointVector joints = found->way.to;
+  out.limited_by = {LimitedBy::velocity, -1};
+  out.profile = std::move(found->profile);
+  out.path = std::move(found->way);
+  shaper_.push_planned(std::move(out), joints);
+  tip_ = end;
+  return {};
+}
+
+// To the end of the move, where it comes to rest; or to where it rests after the probe has tripped.
+Expected<void> Planner::Impl::probe(const canon::Command& command, std::optional<double> trip) {
+  if (broken_) return unexpected(*broken_);
+  merger_.stop();
+  const Line whole = make_line(tip_, std::get<canon::Probe>(command.action).end);
+  const Metric metric = metric_of(whole);
+  if (metric == Metric::none) return move(command, whole, MotionKind::probe, infinity);
+  const auto feed = feed_of(metric, whole.length);
+  if (!feed) return unexpected(at(command, feed.error().kind, feed.error().message));
+  double rest = whole.length;
+  if (trip) {
+    // A way that can't be gone to its end has no known limits: it ends at the trip.
+    const auto run = shaper_.straight_run(whole, tool_offset_);
+    const double braking = run ? braking_way(*trip, *feed, run->limits) : 0;
+    rest = std::min(rest, *trip + braking);
+  }
+  auto done = trip ? move(command, sub_path(whole, 0, rest), MotionKind::probe, *feed,
+                          Trip{*trip, rest / whole.length})
+                   : move(command, whole, MotionKind::probe, *feed);
   merger_.stop();
   return done;
+}
+
+Segment Planner::Impl::straight_way(const canon::Command& command) const {
+  Segment out = segment(command, MotionKind::probe);
+  const Line line = make_line(tip_, canon::end_of(command.action, tip_));
+  out.path = line;
+  if (line.length > 0) out.profile.knots = {{0, 0, 1, 0, 0}, {line.length, line.length, 1, 0, 0}};
+  return out;
 }
 
 // G33 and G33.1. The motion rests before, waits for the spindle's index, and rests afterwards.
@@ -257,7 +343,10 @@ Expected<void> Planner::Impl::sync(const canon::Command& command, const canon::S
   const Line line = make_line(tip_, sync.end);
   if (metric_of(line) == Metric::none) return still(command);
   merger_.stop();
-  const auto run = shaper_.straight_run(line, tool_offset_);
+  auto run = shaper_.straight_run(line, tool_offset_);
+  // A tap's axis and the spindle slow down and turn round together.
+  if (const double spindle = machine_.spindle().acceleration; run && sync.rigid_tap && spindle > 0)
+    run->limits.a = std::min(run->limits.a, sync.per_revolution * spindle);
   auto law = run ? sync_law(line.length, speed, run->limits) : std::nullopt;
   if (law) {
     push_sync(command, line, sync, *run, std::move(*law));
@@ -374,12 +463,7 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
   return std::visit(
       overloaded{
           [&](const canon::Rapid& c) -> Expected<void> {
-            // Where each joint is an axis, straight in joint space is straight in program space.
-            const bool straight = machine_.rapid() == machine::RapidMode::coordinated ||
-                                  (machine_.rapid() == machine::RapidMode::joint &&
-                                   kinematics_->type() == "identity");
-            if (!straight)
-              return no_model(command, "a rapid that is not coordinated (machine key `rapid`)");
+            if (!has_straight_rapids(machine_, *kinematics_)) return rapid(command, c.end);
             return move(command, make_line(tip_, c.end), MotionKind::rapid, infinity);
           },
           [&](const canon::LinearFeed& c) {
@@ -393,7 +477,7 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
           },
           [&](const canon::SplineFeed& c) { return spline(command, c); },
           [&](const canon::SyncFeed& c) { return sync(command, c); },
-          [&](const canon::Probe& c) { return probe(command, c); },
+          [&](const canon::Probe&) { return probe(command, std::nullopt); },
           [&](const canon::Dwell& c) { return barrier(command, c.seconds, MotionKind::dwell); },
           [&](const canon::SetFeedMode& c) {
             feed_mode_ = c.mode;
@@ -439,14 +523,14 @@ Expected<void> Planner::Impl::push(const canon::Command& command) {
             return still(command);
           },
           [&](const canon::SetSpindleSpeed& c) {
-            merger_.stop();
+            const double before = rpm();
             if (c.spindle == 0) spindle_speed_ = c.value;
-            return barrier(command);
+            return spindle(command, before);
           },
           [&](const canon::TurnSpindle& c) {
-            merger_.stop();
+            const double before = rpm();
             if (c.spindle == 0) spindle_turn_ = c.turn;
-            return barrier(command);
+            return spindle(command, before);
           },
           [&](const canon::OrientSpindle& c) {
             merger_.stop();
@@ -503,8 +587,14 @@ Planner::Planner(const machine::Machine& machine, const machine::JointVector& st
     : impl_(std::make_unique<Impl>(machine, start, options)) {}
 Planner::~Planner() = default;
 Expected<void> Planner::push(const canon::Command& command) { return impl_->push(command); }
-void Planner::flush() { impl_->flush(); }
+Expected<void> Planner::push_probe(const canon::Command& command, double trip) {
+  return impl_->probe(command, trip);
+}
 const AxisValues& Planner::tip() const { return impl_->tip(); }
+Segment Planner::straight_way(const canon::Command& command) const {
+  return impl_->straight_way(command);
+}
+void Planner::flush() { impl_->flush(); }
 std::optional<Segment> Planner::take() { return impl_->take(); }
 
 }  // namespace aircut::plan

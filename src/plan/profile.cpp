@@ -25,12 +25,20 @@ SpeedProfile::State SpeedProfile::at(double t) const {
 double spindle_turns(const Segment& segment, double t) {
   if (segment.sync && segment.sync->spindle_follows)
     return segment.sync->sense * segment.profile.at(t).s / segment.sync->pitch;
+  if (segment.spindle_from) {
+    // The integral of a speed that changes evenly.
+    return (*segment.spindle_from + spindle_rpm(segment, t)) / 2 / 60 * t;
+  }
   return segment.spindle_rpm / 60 * t;
 }
 
 double spindle_rpm(const Segment& segment, double t) {
   if (segment.sync && segment.sync->spindle_follows)
     return segment.sync->sense * segment.profile.at(t).v / segment.sync->pitch * 60;
+  if (segment.spindle_from && segment.duration() > 0) {
+    const double from = *segment.spindle_from;
+    return from + (segment.spindle_rpm - from) * std::clamp(t / segment.duration(), 0.0, 1.0);
+  }
   return segment.spindle_rpm;
 }
 

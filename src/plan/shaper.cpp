@@ -44,7 +44,8 @@ AxisValues end_direction(const Path& path) { return evaluate(path, length(path))
 
 JointLimits limits_of(const machine::Machine& machine) {
   const int n = machine.joint_count();
-  JointLimits out{machine::JointVector(n), machine::JointVector(n), machine::JointVector(n)};
+  JointLimits out{machine::JointVector(n), machine::JointVector(n), machine::JointVector(n),
+                  machine.tip_acceleration()};
   for (int j = 0; j < n; ++j) {
     out.v[j] = machine.joint(machine::JointId{j}).vmax;
     out.a[j] = machine.joint(machine::JointId{j}).amax;
@@ -184,7 +185,7 @@ std::optional<Shaper::StraightRun> Shaper::straight_run(const Line& line,
     out.limits.a = std::min(out.limits.a, a);
     out.limits.j = std::min(out.limits.j, j);
   };
-  out.limits = {infinity, infinity, infinity};
+  out.limits = {infinity, limits_.tip_a, infinity};
   for (const GridNode& node : grid.at) out.limits.v = std::min(out.limits.v, std::sqrt(node.cap));
   if (grid.uniform) {
     const machine::JointVector alpha = grid.dq_start.cwiseQuotient(limits_.a);
@@ -195,7 +196,7 @@ std::optional<Shaper::StraightRun> Shaper::straight_run(const Line& line,
   double bend = 0;
   for (std::size_t k = 0; k < grid.nodes(); ++k) {
     limit(grid.alpha(k));
-    for (int j = 0; j < grid.joints; ++j) bend = std::max(bend, std::abs(grid.beta(k)[j]));
+    for (int j = 0; j < rate.size(); ++j) bend = std::max(bend, std::abs(grid.beta(k)[j]));
   }
   out.limits.a /= 2;
   out.limits.j /= 2;
@@ -244,15 +245,27 @@ void Shaper::add_blend(const Move& left, const Move& right, const CornerBlend& c
   in.u0 = in.u1 - part(left) * corner.cut / left_length;
   out.u1 = out.u0 + part(right) * corner.cut / length(right.segment.path);
   const double feed = left.feed;
+  std::optional<KnownRates> known;
+  if (linear_joints_ && corner.rates) {
+    known.emplace();
+    known->rates = *corner.rates;
+    known->cut = corner.cut;
+    known->d_in = end_direction(left.segment.path);
+    known->d_out = start_direction(right.segment.path);
+    machine::JointVector none;
+    kinematics_->rates({}, joints_, known->d_in, {}, known->dq_in, none);
+    kinematics_->rates({}, joints_, known->d_out, {}, known->dq_out, none);
+  }
   end_ = left_length - corner.cut;
   std::vector<Segment> after = std::move(after_);
   after_.clear();
   finish_pending();
   if (failed_) return;
-  add(std::move(in), Metric::xyz, feed);
+  const KnownRates* rates = known ? &*known : nullptr;
+  add(std::move(in), Metric::xyz, feed, false, rates);
   if (failed_) return;
   for (Segment& still : after) chain_.push_still(std::move(still));
-  add(std::move(out), Metric::xyz, right.feed, true);
+  add(std::move(out), Metric::xyz, right.feed, true, rates);
 }
 
 // What is left of a move between two values of its s; a chord goes out line by line.
@@ -290,7 +303,8 @@ void Shaper::add_range(Move& move, double begin, double end) {
 
 // Gives a piece to the chain, or its good part and the failure. `goes_on`: the piece before is the
 // other part of the same curve.
-void Shaper::add(Segment&& segment, Metric metric, double feed, bool goes_on) {
+void Shaper::add(Segment&& segment, Metric metric, double feed, bool goes_on,
+                 const KnownRates* known) {
   const machine::Kinematics& kinematics = *kinematics_;
   const double whole = length(segment.path);
   if (const auto limit =
@@ -306,7 +320,7 @@ void Shaper::add(Segment&& segment, Metric metric, double feed, bool goes_on) {
   // A piece that turns singular on the way is cut there and tried again.
   for (int tries = 0; length(segment.path) > 1e-9 * whole; ++tries) {
     const auto problem = make_grid(kinematics, segment.path, metric, feed, segment.tool_offset,
-                                   limits_, joints_, made_, goes_on && tries == 0);
+                                   limits_, joints_, made_, goes_on && tries == 0, known);
     if (!problem) {
       append(std::move(segment));
       return;

@@ -69,7 +69,8 @@ class Shaper {
   void finish_pending();
   void add_blend(const Move& left, const Move& right, const CornerBlend& corner);
   void add_range(Move& move, double begin, double end);
-  void add(Segment&& segment, Metric metric, double feed, bool goes_on = false);
+  void add(Segment&& segment, Metric metric, double feed, bool goes_on = false,
+           const KnownRates* known = nullptr);
   void append(Segment&& segment);
 
   const machine::Kinematics* kinematics_;

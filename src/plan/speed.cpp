@@ -120,7 +120,7 @@ class Interval {
   double ramp_;  ///< u = (b_next − b) · ramp reaches b_next at the end
   double end_;
   std::size_t count_ = 0;
-  std::array<double, 2 * machine::max_joints> middle_, half_;
+  std::array<double, 2 * (machine::max_joints + most_tip_rows)> middle_, half_;
 };
 
 Cause cause_at(const Grid& grid, std::size_t node, double b0, double b1, double u) {
@@ -135,7 +135,7 @@ Cause cause_at(const Grid& grid, std::size_t node, double b0, double b1, double 
                  std::abs(grid.alpha(node + 1)[j] * u + grid.beta(node + 1)[j] * b1));
     if (share > most) {
       most = share;
-      out.joint = static_cast<signed char>(j);
+      out.joint = static_cast<signed char>(j < grid.joints - grid.tip_rows ? j : -1);
     }
   }
   return out;

@@ -47,6 +47,7 @@ std::string underline_remark(const sim::Finding& f) {
   const auto whole = [](double u) { return fixed(u * 100, 0); };
   switch (f.kind) {
     case sim::Kind::collision:
+    case sim::Kind::probe_contact:
       return "contact from " + whole(f.u_first) + " % to " + whole(f.u_end) +
              " % of this move, t = " + fixed(f.t_first, 3) + " … " + seconds(f.t_end);
     case sim::Kind::near_miss:
@@ -68,6 +69,7 @@ std::string underline_remark(const sim::Finding& f) {
       return "from " + fixed(f.u_first * 100, 1) + " % of this move on, t = " + seconds(f.t_first);
     case sim::Kind::self_overlap:
     case sim::Kind::tool_change_collision:
+    case sim::Kind::probe_missed:
     case sim::Kind::axis_unwind:
     case sim::Kind::feed_not_reached:
     case sim::Kind::branch_flip:
@@ -140,6 +142,23 @@ std::string accepted_text(const RunReport& report, std::size_t most) {
   return out.empty() ? out : "accepted:\n" + out + "\n";
 }
 
+// The time by operation, where there are several.
+std::string operations_text(const RunReport& report) {
+  constexpr std::size_t most = 12;
+  if (report.operations.size() < 2) return {};
+  std::string out = "  time     by operation:\n";
+  for (std::size_t i = 0; i < std::min(most, report.operations.size()); ++i) {
+    const Operation& o = report.operations[i];
+    out += "             " + clock(o.time) + "  " +
+           (o.tool > 0 ? "T" + std::to_string(o.tool) + "  " : std::string()) + "line " +
+           std::to_string(o.line) + (o.name.empty() ? "" : "  " + printable(o.name)) + "\n";
+  }
+  if (report.operations.size() > most)
+    out += "             … and " + std::to_string(report.operations.size() - most) +
+           " more, in result.json\n";
+  return out;
+}
+
 std::string summary_text(const RunReport& report, const std::vector<Message>& all,
                          const HumanOptions& options) {
   const sim::Summary& s = report.summary;
@@ -168,6 +187,7 @@ std::string summary_text(const RunReport& report, const std::vector<Message>& al
          clock(s.rapid_time);
   if (s.tool_change_time > 0) out += ", tool change " + clock(s.tool_change_time);
   if (s.dwell_time > 0) out += ", dwell " + clock(s.dwell_time);
+  if (s.spindle_wait_time > 0) out += ", spindle " + clock(s.spindle_wait_time);
   out += ")\n  machine  " + printable(report.machine);
   for (const auto& joint : s.joints) {
     const double scale = joint.rotary ? degrees : 1;
@@ -175,7 +195,7 @@ std::string summary_text(const RunReport& report, const std::vector<Message>& al
            fixed(joint.low * scale, 2) + " … " + fixed(joint.high * scale, 2) +
            (joint.rotary ? "°" : "");
   }
-  out += "\n";
+  out += "\n" + operations_text(report);
   if (s.collision.pairs > 0)
     out += "  checked  " + plural(s.collision.pairs, "pair") + " of " +
            std::to_string(s.collision.bodies) +

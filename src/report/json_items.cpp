@@ -262,11 +262,23 @@ Json tail_items(const RunReport& report) {
                  {"rapid_s", s.rapid_time},
                  {"dwell_s", s.dwell_time},
                  {"tool_change_s", s.tool_change_time}};
+  if (s.spindle_wait_time > 0) timing["spindle_wait_s"] = s.spindle_wait_time;
+  if (s.blend_time > 0) timing["blend_s"] = s.blend_time;
   if (!report.held_by.empty()) {
     Json held = Json::object();
     for (const auto& [cause, seconds] : report.held_by) held[utf8(cause)] = seconds;
     timing["held_by_s"] = held;
   }
+  Json operations = Json::array();
+  for (const Operation& o : report.operations)
+    operations.push_back({{"name", utf8(o.name)},
+                          {"line", o.line},
+                          {"tool", o.tool},
+                          {"time_s", o.time},
+                          {"feed_s", o.feed},
+                          {"rapid_s", o.rapid},
+                          {"tool_change_s", o.tool_change}});
+  if (!report.operations.empty()) timing["operations"] = operations;
   Json out = {{"waivers", waivers},
               {"baseline_gone", or_null(report.baseline_gone)},
               {"programs", programs(report)},

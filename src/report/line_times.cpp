@@ -38,6 +38,7 @@ Expected<void> LineTimes::write_to(const std::string& path) {
 }
 
 std::string LineTimes::cause(const plan::Segment& segment) const {
+  if (segment.spindle_from) return "spindle";
   switch (segment.kind) {
     case plan::MotionKind::tool_change:
       return "tool change";
@@ -51,6 +52,7 @@ std::string LineTimes::cause(const plan::Segment& segment) const {
       break;
   }
   const plan::Cause& by = segment.limited_by;
+  if (by.by == plan::LimitedBy::acceleration && by.joint < 0) return "tip acceleration";
   const auto of_joint = [&](const char* what) {
     return by.joint < 0 ? std::string("joint ") + what
                         : machine_.joint(machine::JointId{by.joint}).name + " " + what;

@@ -31,6 +31,8 @@ void PathRecorder::add(const sim::Step& step) {
     pieces = std::clamp(static_cast<int>(std::ceil(std::abs(arc->angle) / widest_chord)), 2, 720);
   } else if (std::holds_alternative<plan::Blend>(segment.path)) {
     pieces = 6;
+  } else if (std::holds_alternative<plan::JointWay>(segment.path)) {
+    pieces = 32;
   }
   // Seen from the work, a straight way in other coordinates than the machine's bends.
   if (segment.kinematics) pieces = std::max(pieces, 36);

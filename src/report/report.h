@@ -62,6 +62,15 @@ struct JointPeak {
   At speed, acceleration, jerk;
 };
 
+/// A part of the program, from a comment or a tool change on.
+struct Operation {
+  std::string name;  ///< the comment; empty when there is none
+  std::uint64_t line = 0;
+  int tool = 0;     ///< the last one in the spindle during it
+  double time = 0;  ///< s, all of it; of which …
+  double feed = 0, rapid = 0, tool_change = 0;
+};
+
 /// Everything that a run ends with.
 struct RunReport {
   std::string version;
@@ -75,6 +84,7 @@ struct RunReport {
   std::vector<std::string> joint_names;
   std::vector<bool> joint_rotary;
   std::map<std::string, double> held_by;     ///< s, by what held the speed; empty: not known
+  std::vector<Operation> operations;         ///< with time, in order
   std::vector<JointPeak> peaks;              ///< empty without a joint log of every sample
   std::vector<std::string> outputs;          ///< relative to the output folder
   std::vector<Unit> units;                   ///< empty when there was one program

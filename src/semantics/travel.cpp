@@ -89,6 +89,13 @@ bool TravelCheck::State::inside(const machine::JointVector& q, double slack) con
 
 void TravelCheck::State::move(const canon::Command& command) {
   auto path = plan::path_of(tip, command.action);
+  if (path && std::holds_alternative<canon::Rapid>(command.action) &&
+      !plan::has_straight_rapids(machine, machine.kinematics()) &&
+      machine.kinematics().passive_count() == 0)
+    if (auto rapid = plan::joint_rapid(machine, machine.kinematics(), joints, tip,
+                                       canon::end_of(command.action, tip), tool_offset);
+        rapid && !rapid->profile.knots.empty())
+      path = std::move(rapid->way);
   if (!path) return tell_unproven(command, path.error().message);
   const double length = plan::length(*path);
   if (!(length > 0)) return;

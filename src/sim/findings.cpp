@@ -19,6 +19,8 @@ constexpr KindRow kinds[] = {
     {Kind::near_miss, "near_miss", Severity::warning},
     {Kind::self_overlap, "self_overlap", Severity::error},
     {Kind::tool_change_collision, "tool_change_collision", Severity::error},
+    {Kind::probe_contact, "probe_contact", Severity::error},
+    {Kind::probe_missed, "probe_missed", Severity::error},
     {Kind::overtravel, "overtravel", Severity::error},
     {Kind::overtravel_margin, "overtravel_margin", Severity::info},
     {Kind::unreachable, "unreachable", Severity::error},

@@ -35,6 +35,22 @@ const std::vector<KindText>& finding_kinds() {
       {"tool_change_collision", "the new tool is inside something as soon as it is in the spindle",
        "After a tool change the new tool and its holder are checked where the machine stands.\n"
        "Remedy: retract further before M6; check the tool's length and holder."},
+      {"probe_contact", "a probe touches something while no probing move is active",
+       "The tip of a tool with `probe = true` (tools.toml) meets a body in a move that is not G38 "
+       "(or\n"
+       "Fanuc's G31): the probe would break, or the control stop. Coming off what the last probing "
+       "move\n"
+       "has touched is no contact.\n"
+       "Remedy: approach with G38.3, or stay farther away."},
+      {"probe_missed", "a probing move that must touch something does not",
+       "G38.2 came to its end without touching anything, G38.4 without coming off, or the probe "
+       "was "
+       "in\n"
+       "that state already where the move began. The control stops the program there, and so does "
+       "the run.\n"
+       "Remedy: probe farther, correct the work offset or the set-up, or use G38.3 or G38.5 and "
+       "look at\n"
+       "#5070."},
       {"overtravel", "a joint passes its limit",
        "A joint leaves its range at some time of the move, also between the end points of an arc "
        "or of\n"

@@ -49,6 +49,34 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
     }
   };
 
+  // Where a probing move ends depends on what the machine meets on it.
+  const auto probe = [&](const canon::Command& command) -> Expected<void> {
+    planner.flush();
+    drain();
+    if (!moving) return {};
+    const auto& action = std::get<canon::Probe>(command.action);
+    const plan::Segment way = planner.straight_way(command);
+    const ProbeResult met = simulator.look_ahead(way);
+    const bool tripped = met.what == ProbeResult::What::tripped;
+    const bool starts_wrong = met.what == ProbeResult::What::wrong_start;
+    if (auto accepted =
+            tripped || starts_wrong ? planner.push_probe(command, met.way) : planner.push(command);
+        !accepted)
+      return accepted;
+    planner.flush();
+    drain();
+    const AxisValues tip = tripped ? plan::evaluate(way.path, met.way).p : action.end;
+    interpreter.resume({.tip = tip, .tripped = tripped});
+    interpreter.synchronise(planner.tip());  // it rests a little farther on
+    const bool refused =
+        starts_wrong || (met.what == ProbeResult::What::missed && action.error_if_missed);
+    if (moving && refused) {
+      simulator.not_checked(from_line_on(command.span, "the control stops at this probing move"));
+      moving = false;
+    }
+    return {};
+  };
+
   simulator.start();
   while (auto command = interpreter.next()) {
     if (options.stop_requested && options.stop_requested()) {
@@ -64,7 +92,8 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
       moving = false;
     }
     if (!moving) continue;
-    if (auto accepted = planner.push(*command); !accepted) {
+    const bool probes = std::holds_alternative<canon::Probe>(command->action);
+    if (auto accepted = probes ? probe(*command) : planner.push(*command); !accepted) {
       planner.flush();
       drain();
       if (moving) simulator.not_checked(from_line_on(command->span, accepted.error().message));
@@ -72,7 +101,7 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
       continue;
     }
     const auto* switched = std::get_if<canon::SwitchKinematics>(&command->action);
-    if (switched || std::holds_alternative<canon::Probe>(command->action)) planner.flush();
+    if (switched) planner.flush();
     drain();
     if (switched) {
       interpreter.synchronise(planner.tip());
@@ -86,8 +115,6 @@ Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagn
           "from the position before"));
       unsynchronised = false;
     }
-    if (const auto* probe = std::get_if<canon::Probe>(&command->action))
-      interpreter.resume({.tip = probe->end, .tripped = false});
   }
   planner.flush();
   drain();

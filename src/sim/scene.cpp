@@ -1,4 +1,5 @@
 #include "sim/sim.h"
+#include "tool/insert.h"
 
 namespace aircut::sim {
 
@@ -7,10 +8,10 @@ namespace {
 // Tool pieces are drawn and checked as solids of revolution; this is how much larger they may be.
 constexpr double tool_facet_tolerance = 0.005;  // mm
 
-machine::Role role_of(tool::PieceRole role) {
+machine::Role role_of(tool::PieceRole role, bool probe) {
   switch (role) {
     case tool::PieceRole::cutter:
-      return machine::Role::cutter;
+      return probe ? machine::Role::probe : machine::Role::cutter;
     case tool::PieceRole::shank:
       return machine::Role::shank;
     case tool::PieceRole::holder:
@@ -82,7 +83,7 @@ void Scene::load_tool(int number) {
                        const Vec3& from_gauge) {
     machine::Body body;
     body.name = "T" + std::to_string(number) + "/" + name;
-    body.role = role_of(role);
+    body.role = role_of(role, tool::is_probe(*loaded));
     body.link = spindle.link;
     body.mesh = std::make_shared<TriangleMesh>(std::move(mesh));
     body.X_LB = X_LF * translation(from_gauge);  // X_LF · X_FT

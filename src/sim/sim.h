@@ -67,6 +67,8 @@ enum class Kind : unsigned char {
   near_miss,
   self_overlap,
   tool_change_collision,
+  probe_contact,
+  probe_missed,
   overtravel,
   overtravel_margin,
   unreachable,
@@ -176,6 +178,8 @@ struct Summary {
   Verdict verdict = Verdict::unknown;
   double cycle_time = 0;  ///< s, planned
   double feed_time = 0, rapid_time = 0, dwell_time = 0, tool_change_time = 0;
+  double spindle_wait_time = 0;  ///< for its speed, or its index
+  double blend_time = 0;         ///< of feed_time: in rounded corners
   std::uint64_t blocks = 0, moves = 0;
   std::size_t findings_dropped = 0;
 
@@ -277,6 +281,18 @@ double fraction_at(const Step& step, double t);
 class CuttingCheck;
 class TurningCheck;
 
+/// What a probing move meets.
+struct ProbeResult {
+  enum class What : unsigned char {
+    tripped,
+    missed,
+    wrong_start,  ///< it is in that state already
+    unknown,
+  } what = What::unknown;
+  double way = 0;    ///< gone until then, along the feed metric
+  std::string text;  ///< the body that is touched or left; for `unknown` why, in words
+};
+
 /// Drives the machine through segments.
 class Simulator {
  public:
@@ -288,6 +304,8 @@ class Simulator {
   /// Puts a tool into the spindle before the run.
   void load_tool(int number) { scene_.load_tool(number); }
   void start();
+  /// What the probing move would meet that comes next: `way` is the whole of it at 1 mm a second.
+  ProbeResult look_ahead(const plan::Segment& way);
   /// Moves, checks, tells the observers.
   void step(const plan::Segment& segment);
   /// True after a segment with a failure: nothing can follow.
@@ -325,6 +343,7 @@ class Simulator {
  private:
   void count(const plan::Segment& segment);
   void user_code(const Step& step, const canon::UserCode& code);
+  void probed(const Step& step);
   void feed_without_tool(const Step& step);
   /// The fields that follow from the joints at the worst moment.
   void place(Finding& f) const;
@@ -341,6 +360,7 @@ class Simulator {
   bool told_no_tool_ = false;
   bool inputs_used_ = false;
   std::vector<Finding> inputs_;  ///< of M66 that only count when a program looks at the result
+  std::optional<ProbeResult> probing_;  ///< of the probing move that comes next
 };
 
 /// Whether the machine's stock fits into memory on its lattice; the error `stock_memory` names the

@@ -2,6 +2,7 @@
 
 #include "sim/checks/cutting.h"
 #include "sim/checks/turning.h"
+#include "sim/probing.h"
 #include "sim/sim.h"
 #include "tool/insert.h"
 
@@ -133,15 +134,7 @@ void Simulator::step(const plan::Segment& segment) {
     else
       findings_.add(f);
   }
-  if (std::holds_alternative<canon::Probe>(segment.command.action)) {
-    Finding f = finding_at(Kind::not_checked, step, segment.t_end());
-    f.message =
-        "the probing move has no model of what it touches here: it runs to its end and trips "
-        "nothing";
-    f.remedy = "what follows was checked for that case only";
-    f.makes_unknown = true;
-    findings_.add(f);
-  }
+  if (std::holds_alternative<canon::Probe>(segment.command.action)) probed(step);
   if (!segment.sync_problem.empty()) {
     Finding f = finding_at(Kind::sync_limit, step, segment.t_start);
     f.message = segment.sync_problem;
@@ -156,6 +149,56 @@ void Simulator::step(const plan::Segment& segment) {
   }
   if (const auto* code = std::get_if<canon::UserCode>(&segment.command.action))
     user_code(step, *code);
+}
+
+ProbeResult Simulator::look_ahead(const plan::Segment& way) {
+  const machine::Machine& machine = scene_.machine();
+  const auto unknown = [&](std::string why) {
+    probing_ = ProbeResult{ProbeResult::What::unknown, 0, std::move(why)};
+    return *probing_;
+  };
+  std::shared_ptr<const collide::CollisionMesh> stock;
+  if (machine.stock()) {
+    if (!cutting_) return unknown("what is left of the stock is not known to it");
+    auto now = cutting_->surface();
+    if (!now) return unknown(now.error().message);
+    stock = std::move(*now);
+  }
+  const machine::MotionBound bound(machine);
+  const bool away = std::get<canon::Probe>(way.command.action).away;
+  probing_ = find_trip({scene_, bound, joints_, way, away, std::move(stock)});
+  return *probing_;
+}
+
+// What is to be said of a probing move that was carried out.
+void Simulator::probed(const Step& step) {
+  if (!probing_) return;  // the rest of one that was told of
+  const ProbeResult result = std::move(*probing_);
+  probing_.reset();
+  const auto& probe = std::get<canon::Probe>(step.segment.command.action);
+  if (result.what == ProbeResult::What::tripped) {
+    if (cutting_) cutting_->probed();
+    return;
+  }
+  if (result.what == ProbeResult::What::missed && !probe.error_if_missed) return;
+  const bool known = result.what != ProbeResult::What::unknown;
+  Finding f =
+      finding_at(known ? Kind::probe_missed : Kind::not_checked, step, step.segment.t_end());
+  if (result.what == ProbeResult::What::missed) {
+    f.message = probe.away ? "the probing move ends while the probe still touches " + result.text
+                           : "the probing move ends without touching anything";
+    f.remedy = "let it go farther, or look at the work offset and the set-up";
+  } else if (result.what == ProbeResult::What::wrong_start) {
+    f.message = probe.away ? "the probe touches nothing where the probing move away begins"
+                           : "the probe touches " + result.text + " where the probing move begins";
+    f.remedy = probe.away ? "touch something first (G38.3)" : "retract first";
+  } else {
+    f.message = "what the probing move touches is not known: " + result.text +
+                "; it runs to its end and trips nothing";
+    f.remedy = "what follows was checked for that case only";
+    f.makes_unknown = true;
+  }
+  findings_.add(f);
 }
 
 // Feed moves with a turning spindle and no tool: some control may have one in it that the program
@@ -206,6 +249,13 @@ void Simulator::count(const plan::Segment& segment) {
   const double time = segment.duration();
   summary_.cycle_time = std::max(summary_.cycle_time, segment.t_end());
   if (canon::is_motion(segment.command.action)) ++summary_.moves;
+  if (segment.kind == plan::MotionKind::blend) summary_.blend_time += time;
+  const bool index =
+      segment.kind == plan::MotionKind::sync && std::holds_alternative<plan::Hold>(segment.path);
+  if (segment.spindle_from || index) {
+    summary_.spindle_wait_time += time;
+    return;
+  }
   switch (segment.kind) {
     case plan::MotionKind::rapid:
       summary_.rapid_time += time;

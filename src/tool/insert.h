@@ -11,6 +11,14 @@ namespace aircut::tool {
 /// Whether anything of a tool's body is known.
 inline bool has_body(const Tool& tool) { return !tool.pieces.empty() || !tool.blocks.empty(); }
 
+/// What the tip of a probe is called: a piece in the cutter's place that touches and does not cut.
+inline constexpr const char* probe_name = "probe";
+inline bool is_probe(const Tool& tool) {
+  for (const Piece& piece : tool.pieces)
+    if (piece.role == PieceRole::cutter && piece.name == probe_name) return true;
+  return false;
+}
+
 /// Seen from the controlled point, (x, z) in mm: a nose and the far ends of its two edges.
 struct Insert {
   std::array<double, 2> nose{};

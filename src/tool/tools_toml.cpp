@@ -318,16 +318,21 @@ Tool read_tool(Context& context, Table table, std::set<int>& numbers) {
   }
   tool.center_cutting = table.boolean("center_cutting", true);
   tool.left_hand = table.choice("hand", {"right", "left"}, "right") == "left";
+  const bool probe = table.boolean("probe", false);
   if (kind.empty()) {  // which keys it may have is not known then
     for (const std::string& key : table.keys()) table.know(key);
     return tool;
   }
   if (kind == "turning") {
+    if (probe) in.fail("probe", "'probe' needs a solid of revolution, not kind = \"turning\"");
     read_turning(in, tool);
   } else {
     read_limits(in, tool);
     assemble(context, in, kind, tool);
   }
+  if (probe)
+    for (Piece& piece : tool.pieces)
+      if (piece.role == PieceRole::cutter) piece.name = probe_name;
   read_offset(context, in, tool);
   return tool;
 }

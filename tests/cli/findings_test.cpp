@@ -21,6 +21,8 @@ const Sample samples[] = {
     {"wrong_setup", "mill3", "wrong_setup", ""},
     {"engagement_limit", "mill3", "block", "-t tests/data/findings/tools.toml"},
     {"loose_piece", "mill3", "block", ""},
+    {"probe_missed", "mill3", "block", "-t tests/data/findings/tools.toml"},
+    {"probe_contact", "mill3", "block", "-t tests/data/findings/tools.toml"},
     {"overtravel_margin", "mill3", nullptr, ""},
     {"axis_unwind", "mill5-ac", nullptr, ""},
     {"feed_not_reached", "mill3", nullptr, ""},

@@ -31,10 +31,12 @@ TEST(ReadMachine, ReadsWhatTheFileSays) {
   EXPECT_EQ(machine->default_tools_, folder + "/tools.toml");
   EXPECT_EQ(machine->default_parameters_, folder + "/params.var");
   EXPECT_EQ(machine->rapid(), RapidMode::dogleg);
+  EXPECT_EQ(machine->tip_acceleration(), 2540);
   EXPECT_EQ(machine->tool_change().seconds, 2.5);
   EXPECT_EQ(machine->spindle().link, bed_link);
   EXPECT_EQ(machine->spindle().min_rpm, 10);
   EXPECT_EQ(machine->spindle().max_rpm, 8000);
+  EXPECT_EQ(machine->spindle().acceleration, 40);
   EXPECT_EQ(machine->work_link(), machine->find_link("table"));
   ASSERT_EQ(machine->exclusions().size(), 2u);
   EXPECT_EQ(machine->exclusions()[0].reason, "bolted together");

@@ -150,6 +150,30 @@ TEST(Feed, MustBeThere) {
   EXPECT_TRUE(planned.errors[0].starts_with("feed_missing")) << planned.errors[0];
 }
 
+TEST(Arc, UnderALimitOfTheTipsAccelerationTakesTheClosedFormsTime) {
+  int compared = 0;
+  for (const auto& c : cases_of("planner-arc-isotropic.json")) {
+    const double r = c["radius_mm"], sweep = double(c["sweep_deg"]) * rad;
+    const auto machine = identity_machine("XY", {{1e6, 1e9}, {1e6, 1e9}});
+    machine->tip_acceleration_ = c["a_tcp"];
+    Program program;
+    program.feed(c["feed"]).arc(xyz(r * std::cos(sweep), r * std::sin(sweep), 0), 0, 0);
+    const Planned planned = plan_program(*machine, joints_at(*machine, xyz(r, 0, 0)), program);
+    const double t = c["t_acc_limited"];
+    EXPECT_NEAR(planned.time(), t, 1e-3 * t) << c.dump();
+    ++compared;
+  }
+  EXPECT_GE(compared, 6);
+}
+
+TEST(Line, UnderALimitOfTheTipsAccelerationKeepsIt) {
+  const auto machine = mill();
+  machine->tip_acceleration_ = 600;
+  Program program;
+  program.feed(50).line(xyz(40, 30, 0));
+  EXPECT_NEAR(plan_program(*machine, zeros(*machine), program).time(), 1 + 50.0 / 600, 1e-9);
+}
+
 TEST(Circle, IsWithinAThousandthOfTheNumericOptimum) {
   for (const auto& c : cases_of("planner-circle-joint-box.json")) {
     const double r = c["radius_mm"];

@@ -161,10 +161,11 @@ TEST(Blend, BetweenLinesIsBuiltOfTheirDirectionsAsItsRatesSay) {
     ASSERT_TRUE(made);
     EXPECT_EQ(cut, made->cut);
     EXPECT_NEAR(rates.length * cut, made->blend.length, 1e-9);
+    const auto last = static_cast<double>(rates.at.size() - 1);
     const AxisValues d_in = evaluate(left, 1).d, d_out = evaluate(right, 1).d;
     for (std::size_t k = 0; k < rates.at.size(); ++k) {
       const auto& [d, dd] = rates.at[k];
-      const PathPoint p = evaluate(made->blend, made->blend.length * static_cast<double>(k) / 8);
+      const PathPoint p = evaluate(made->blend, made->blend.length * static_cast<double>(k) / last);
       for (const Axis axis : all_axes) {
         EXPECT_NEAR(d[0] * d_in[axis] + d[1] * d_out[axis], p.d[axis], 1e-4) << turn;
         EXPECT_NEAR((dd[0] * d_in[axis] + dd[1] * d_out[axis]) / cut, p.dd[axis], 1e-2 * turn / cut)

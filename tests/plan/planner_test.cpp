@@ -302,6 +302,22 @@ TEST(Monotone, MoreOfAnyLimitIsNeverSlower) {
   }
 }
 
+TEST(Monotone, ALargerToleranceIsNeverSlower) {
+  for (const double jerk : {std::numeric_limits<double>::infinity(), 20000.0}) {
+    const auto machine =
+        identity_machine("XYZ", {{50, 900, jerk}, {50, 700, jerk}, {50, 900, jerk}});
+    double last = std::numeric_limits<double>::infinity();
+    for (const double p : {1e-4, 1e-3, 0.01, 0.05, 0.2, 1.0}) {
+      Program program;
+      program.blend(p).feed(40);
+      for (int i = 1; i <= 12; ++i) program.line(xyz(3.0 * i, i % 2 ? 4 : 0, i % 3));
+      const double t = time_of(*machine, program);
+      EXPECT_LE(t, last * 1.001) << p << ", jerk " << jerk;
+      last = t;
+    }
+  }
+}
+
 // ---- merging ---------------------------------------------------------------------------------
 
 TEST(Merge, ReplacesLinesByTheirChordAndKeepsTheirNames) {

@@ -189,10 +189,41 @@ TEST(Rapid, StraightInJointSpaceIsStraightWhereJointsAreAxes) {
   const double t = plan_program(*machine, zeros(*machine), program).time();
   machine->rapid_ = machine::RapidMode::joint;
   EXPECT_EQ(plan_program(*machine, zeros(*machine), program).time(), t);
-  machine->rapid_ = machine::RapidMode::dogleg;
-  const Planned dogleg = plan_program(*machine, zeros(*machine), program);
-  ASSERT_EQ(dogleg.errors.size(), 1u);
-  EXPECT_TRUE(dogleg.errors[0].starts_with("unsupported_code")) << dogleg.errors[0];
+}
+
+TEST(Spindle, IsWaitedForWhereItHasAnAcceleration) {
+  const auto machine = mill();
+  Program program = turning(1200);
+  program.add(canon::SetSpindleSpeed{0, 600}).dwell(1);
+  program.add(canon::TurnSpindle{0, canon::SpindleTurn::counterclockwise, true});
+  EXPECT_NEAR(plan_program(*machine, zeros(*machine), program).time(), 1, 1e-12);
+  machine->spindle_.acceleration = 10;  // rev/s²
+  const Planned planned = plan_program(*machine, zeros(*machine), program);
+  // 20 rev/s up, 10 down, 20 from 10 forward to 10 backward.
+  EXPECT_NEAR(planned.time(), 2 + 1 + 1 + 2, 1e-12);
+  double turns = 0;
+  for (const Segment& segment : planned.segments)
+    turns += spindle_turns(segment, segment.duration());
+  EXPECT_NEAR(turns, 20.0 * 2 / 2 + 15.0 * 1 + 10.0 * 1 + 0, 1e-9);
+  const Segment& up = planned.segments[1];
+  EXPECT_NEAR(spindle_rpm(up, 0.5), 300, 1e-9);
+  EXPECT_NEAR(spindle_turns(up, 1), 5, 1e-9);
+}
+
+TEST(RigidTap, TurnsRoundNoFasterThanTheSpindleCan) {
+  const auto machine = mill();
+  Program program = turning(600);
+  program.add(canon::SyncFeed{xyz(0, 0, -12), 1.25, true, 1, 0});
+  const auto steepest = [&] {
+    double out = 0;
+    for (const Segment& segment : plan_program(*machine, zeros(*machine), program).segments)
+      if (segment.sync && segment.sync->spindle_follows)
+        for (const ProfileKnot& knot : segment.profile.knots) out = std::max(out, std::abs(knot.a));
+    return out;
+  };
+  EXPECT_NEAR(steepest(), 500, 1e-9);  // Z's own limit
+  machine->spindle_.acceleration = 80;
+  EXPECT_NEAR(steepest(), 80 * 1.25, 1e-9);
 }
 
 }  // namespace

@@ -184,7 +184,8 @@ class Samples {
     out.push_back(finding(Kind::tool_missing, 2, "T4 is not in the tool table"));
     out.push_back(finding(Kind::not_checked, 2, "T4 has no geometry"));
     out.back().makes_unknown = true;
-    out.back().makes_unknown = true;
+    out.push_back(finding(Kind::probe_contact, 3, "probe `T4/probe` touches `vise`"));
+    out.push_back(finding(Kind::probe_missed, 4, "the probing move ends without a touch"));
     return out;
   }
 

@@ -145,12 +145,17 @@ class CollisionCheck final : public Check {
     const SceneBody& a = bodies[pair.a];
     const SceneBody& b = bodies[pair.b];
     const double t1 = step.motion.t1();
-    const auto relative = relative_motion(a, b, cache);
+    const auto relative = relative_motion(*bound_, a, b, cache);
     PairAt at(a, b, cache, cost_);
     const collide::ProofOptions proof{.margin = options_.near,
                                       .resolution = step.scene.machine().collision_tolerance(),
                                       .touch = options_.touch};
     double t = step.motion.t0();
+    // A probing move is made to touch; what it has touched it may come off again.
+    const bool probing =
+        std::holds_alternative<canon::Probe>(step.segment.command.action) &&
+        (a.body.role == machine::Role::probe || a.body.role == machine::Role::cutter);
+    if (pair.touching) pair.contact_end = t;
     // Contacts that end and begin again within a block are rows of their own; more than this many
     // are told as one that lasts to the block's end.
     constexpr int most_rows = 8;
@@ -159,9 +164,14 @@ class CollisionCheck final : public Check {
           collide::prove(*a.collision, *b.collision, relative, t, t1, proof, pair.budget, cost_);
       double next = t1;
       std::visit(overloaded{
-                     [&](const collide::Clear&) { clear_time_ += t1 - t; },
+                     [&](const collide::Clear&) {
+                       clear_time_ += t1 - t;
+                       pair.touching = false;
+                     },
                      [&](const collide::Near& near) {
                        clear_time_ += t1 - t;
+                       pair.touching = false;
+                       if (probing) return;
                        // Parting after a contact is no near miss of its own.
                        const bool parting = pair.contact_end >= 0 && t <= pair.contact_end + 1e-6;
                        if (parting && at.distance(t, near.distance_high + 3 * proof.resolution) <=
@@ -173,10 +183,16 @@ class CollisionCheck final : public Check {
                        next = row + 1 == most_rows ? t1 : at.end_of_contact(hit, t1);
                        clear_time_ += hit.t_first - t;
                        hit_time_ += next - hit.t_first;
+                       const bool comes_off = pair.touching && hit.t_first <= pair.contact_end &&
+                                              !goes_deeper(at, t, next);
                        pair.contact_end = next;
+                       pair.touching = (probing || comes_off) && next >= t1;
+                       if (probing || comes_off) return;
                        report_hit(step, a.body, b.body, hit, next, at, cache, out);
                      },
                      [&](const collide::Unresolved& gap) {
+                       pair.touching = probing;
+                       if (probing) pair.contact_end = t1;
                        // Bodies that come apart are within the resolution for a moment: that is
                        // the end of the contact that was told already.
                        if (pair.contact_end >= 0 && gap.t0 <= pair.contact_end + 1e-6) {
@@ -195,24 +211,13 @@ class CollisionCheck final : public Check {
     }
   }
 
-  collide::RelativeMotion relative_motion(const SceneBody& a, const SceneBody& b,
-                                          PoseCache& cache) const {
-    return {
-        .X_AB = [&a, &b, &cache](double t) -> std::optional<Pose> {
-          const LinkPoses* poses = cache.at(t);
-          if (!poses) return std::nullopt;
-          return mesh_pose(a.body, *poses).inverse(Eigen::Isometry) * mesh_pose(b.body, *poses);
-        },
-        .travel = [this, &a, &b, &cache](double ta, double tb) -> std::optional<double> {
-          const std::vector<double>* travel = cache.travel(ta, tb);
-          const LinkPoses* poses = travel ? cache.at(0.5 * (ta + tb)) : nullptr;
-          if (!poses) return std::nullopt;
-          return bound_->bound(a.body.link, mesh_pose(a.body, *poses) * a.collision->centre(),
-                               a.collision->radius(), b.body.link,
-                               mesh_pose(b.body, *poses) * b.collision->centre(),
-                               b.collision->radius(), *poses, *travel);
-        },
+  // True where bodies that touch at t0 overlap more than there until t1.
+  bool goes_deeper(PairAt& at, double t0, double t1) const {
+    const auto depth = [&](double until) {
+      const auto worst = at.deepest(t0, until, options_.touch);
+      return worst ? worst->penetration.depth : 0;
     };
+    return depth(t1) > depth(t0) + 2 * options_.touch;
   }
 
   static void name_pair(Finding& f, const Body& a, const Body& b) {
@@ -224,9 +229,11 @@ class CollisionCheck final : public Check {
 
   void report_hit(const Step& step, const Body& a, const Body& b, const collide::Hit& hit,
                   double t_end, PairAt& at, PoseCache& cache, Findings& out) {
-    Finding f = finding_at(Kind::collision, step, hit.t_first);
+    const bool probe = a.role == machine::Role::probe;
+    Finding f = finding_at(probe ? Kind::probe_contact : Kind::collision, step, hit.t_first);
     name_pair(f, a, b);
-    f.message = in_words(a) + " hits " + in_words(b) + " " + during(step.segment);
+    f.message =
+        in_words(a) + (probe ? " touches " : " hits ") + in_words(b) + " " + during(step.segment);
     f.t_worst = hit.t_overlap;
     f.t_end = t_end;
     f.u_first = fraction_at(step, f.t_first);

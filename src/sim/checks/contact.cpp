@@ -8,6 +8,26 @@ Pose mesh_pose(const machine::Body& body, const LinkPoses& poses) {
   return poses.X_WL[static_cast<std::size_t>(index(body.link))] * body.X_LB;
 }
 
+collide::RelativeMotion relative_motion(const machine::MotionBound& bound, const SceneBody& a,
+                                        const SceneBody& b, PoseCache& cache) {
+  return {
+      .X_AB = [&a, &b, &cache](double t) -> std::optional<Pose> {
+        const LinkPoses* poses = cache.at(t);
+        if (!poses) return std::nullopt;
+        return mesh_pose(a.body, *poses).inverse(Eigen::Isometry) * mesh_pose(b.body, *poses);
+      },
+      .travel = [&bound, &a, &b, &cache](double ta, double tb) -> std::optional<double> {
+        const std::vector<double>* travel = cache.travel(ta, tb);
+        const LinkPoses* poses = travel ? cache.at(0.5 * (ta + tb)) : nullptr;
+        if (!poses) return std::nullopt;
+        return bound.bound(a.body.link, mesh_pose(a.body, *poses) * a.collision->centre(),
+                           a.collision->radius(), b.body.link,
+                           mesh_pose(b.body, *poses) * b.collision->centre(), b.collision->radius(),
+                           *poses, *travel);
+      },
+  };
+}
+
 bool PairAt::overlap(double t) {
   const LinkPoses* poses = cache_.at(t);
   ++cost_.overlap_queries;

@@ -55,6 +55,10 @@ class PoseCache {
 /// Pose of a body's mesh in the world.
 Pose mesh_pose(const machine::Body& body, const machine::LinkPoses& poses);
 
+/// Motion of b seen from a over a step. Borrows everything.
+collide::RelativeMotion relative_motion(const machine::MotionBound& bound, const SceneBody& a,
+                                        const SceneBody& b, PoseCache& cache);
+
 /// A pair of bodies at times of one step. Borrows everything.
 class PairAt {
  public:

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sim/checks/pairs.h"
+#include "tool/insert.h"
 
 namespace aircut::sim {
 
@@ -63,6 +64,18 @@ const stock::Stock* CuttingCheck::stock() const {
   return stock_ && given_up_.empty() ? &*stock_ : nullptr;
 }
 
+Expected<std::shared_ptr<const collide::CollisionMesh>> CuttingCheck::surface() {
+  flush();
+  if (!stock()) return unexpected(make_error("stock_unknown", given_up_));
+  if (!surface_ || removed_at_surface_ != removed_) {
+    // Uncut, the mesh of the raw piece is exact.
+    const bool raw = removed_ == 0 && raw_->mesh;
+    surface_ = std::make_shared<collide::CollisionMesh>(raw ? *raw_->mesh : stock_->mesh());
+    removed_at_surface_ = removed_;
+  }
+  return surface_;
+}
+
 void CuttingCheck::start(const Scene& scene, const JointVector& joints, Findings& out) {
   raw_ = scene.machine().stock();
   if (!raw_) return;
@@ -114,8 +127,9 @@ void CuttingCheck::read_tool(const Scene& scene) {
       tool_known_ = false;
       continue;
     }
-    const bool cuts = piece.role == tool::PieceRole::cutter;
+    const bool tip = piece.role == tool::PieceRole::cutter, cuts = tip && !tool::is_probe(*tool);
     const machine::Role role = cuts                                   ? machine::Role::cutter
+                               : tip                                  ? machine::Role::probe
                                : piece.role == tool::PieceRole::shank ? machine::Role::shank
                                                                       : machine::Role::holder;
     for (Reach* reach : {&reach_, cuts ? &cutter_reach_ : &reach_}) {
@@ -234,7 +248,7 @@ std::optional<Kind> CuttingCheck::forbidden(const Step& step) const {
 void CuttingCheck::step(const Step& step, Findings& out) {
   if (raw_ && !given_up_.empty()) return tell_given_up(step, out);
   if (!stock() || std::holds_alternative<plan::Hold>(step.segment.path)) return;
-  // What a probe touches has no model: the verdict is unknown already.
+  // Made to touch: where it trips was found before it was planned (probing.h).
   if (std::holds_alternative<canon::Probe>(step.segment.command.action)) return;
   t_end_ = step.segment.t_end();
   if (const auto end = step.motion.at(step.motion.t1())) joints_ = *end;
@@ -334,8 +348,22 @@ void CuttingCheck::cutter_may_not(const Step& step, const StraightMove& move, co
   }
 }
 
+// A probe that leaves what it has touched: nowhere deeper than where it stood.
+bool CuttingCheck::comes_off(const StraightMove& move, const Solid& solid) {
+  if (!touching_ || solid.role != machine::Role::probe) return false;
+  flush();
+  if (!stock()) return false;
+  const auto across = [&](const Vec3& from, const Vec3& to) {
+    return touch_of({&solid.profile, from, to, move.axis, 0}).across;
+  };
+  const double before = across(move.from, move.from);
+  if (across(move.to, move.to) <= options_.touch) touching_ = false;
+  return across(move.from, move.to) <= before + stock_->pitch() / 10;
+}
+
 void CuttingCheck::ask(const Step& step, const StraightMove& move, const Solid& solid) {
   if (!stock() || !near(solid, move)) return;
+  if (comes_off(move, solid)) return;
   const stock::Piece whole = piece(solid, move);
   auto answer = stock_->would_cut(whole, options_.touch);
   if (answer && answer->contact == stock::Contact::clear) return;
@@ -346,8 +374,8 @@ void CuttingCheck::ask(const Step& step, const StraightMove& move, const Solid& 
   if (answer->contact == stock::Contact::clear) return;
   const bool hit = answer->contact == stock::Contact::hit;
   const auto enough = [&](const stock::Piece& part) { return takes(touch_of(part)); };
-  Finding f =
-      row(hit ? Kind::collision : Kind::near_miss, step, move, solid, answer->touch.point, enough);
+  const Kind contact = solid.role == machine::Role::probe ? Kind::probe_contact : Kind::collision;
+  Finding f = row(hit ? contact : Kind::near_miss, step, move, solid, answer->touch.point, enough);
   if (hit)
     tell_hit(f, {solid.name, solid.role}, answer->most - answer->least,
              "use a longer stick-out or flute length, or clear the material beside it first");

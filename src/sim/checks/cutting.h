@@ -43,6 +43,10 @@ class CuttingCheck final : public Check {
   const stock::Stock* stock() const;
   /// The part to be made; null when there is none or it can't be compared.
   const stock::Part* part() const { return part_ && stock() ? part_->part() : nullptr; }
+  /// Its surface as it is now, for a probe; an error says why that is not known.
+  Expected<std::shared_ptr<const collide::CollisionMesh>> surface();
+  /// The probe has touched the stock and may come off it.
+  void probed() { touching_ = true; }
   /// Null when there is no stock.
   CutTape* tape() { return tape_ ? &*tape_ : nullptr; }
 
@@ -75,6 +79,7 @@ class CuttingCheck final : public Check {
   void look_at_part(const Step& step, const Solid& cutter, const StraightMove& move);
   void compare_with_part(Summary& summary, Findings& out);
   void look_for_loose(const Scene& scene, Findings& out);
+  bool comes_off(const StraightMove& move, const Solid& solid);
   void give_up(const std::string& why);
   void tell_given_up(const Step& step, Findings& out);
 
@@ -104,6 +109,9 @@ class CuttingCheck final : public Check {
   std::string given_up_;             ///< why nothing more is known of the stock; empty: it is known
   std::string no_part_;              ///< why the result can't be compared with the part
   bool told_ = false;
+  bool touching_ = false;  ///< the probe, since its last probing move
+  std::shared_ptr<const collide::CollisionMesh> surface_;
+  std::int64_t removed_at_surface_ = 0;  ///< `removed_` when that was made
 };
 
 }  // namespace aircut::sim

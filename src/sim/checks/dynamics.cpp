@@ -88,6 +88,11 @@ class DynamicsCheck final : public Check {
 
   static Place place(const Step& step, double s, const JointVector& near) {
     Place out;
+    if (const auto* way = std::get_if<plan::JointWay>(&step.segment.path)) {
+      out.reached = out.smooth = true;
+      out.joint = plan::joint_point(*way, s);
+      return out;
+    }
     const plan::PathPoint p = plan::evaluate(step.segment.path, s);
     const machine::Target target{p.p, step.segment.tool_offset};
     const machine::Kinematics& kinematics =

@@ -62,13 +62,15 @@ int rank(Role role) {
 
 // An exclusion by name is told in `exclusions`.
 bool watched(const Scene& scene, const SceneBody& a, const SceneBody& b,
-             std::vector<std::string>& exclusions) {
+             ToolAndStock tool_and_stock, std::vector<std::string>& exclusions) {
   if (!a.collision || !b.collision || a.body.link == b.body.link) return false;
   const Role ra = a.body.role, rb = b.body.role;
   if (ra == Role::part || rb == Role::part) return false;
   if (is_tool(ra) && is_tool(rb)) return false;
   // The tool against the stock of the moment: cutting.h.
-  if ((is_tool(ra) && rb == Role::stock) || (is_tool(rb) && ra == Role::stock)) return false;
+  if (tool_and_stock == ToolAndStock::left_out &&
+      ((is_tool(ra) && rb == Role::stock) || (is_tool(rb) && ra == Role::stock)))
+    return false;
   if ((ra == Role::fixture && rb == Role::stock) || (rb == Role::fixture && ra == Role::stock))
     return false;
   if (ra == Role::fixture && rb == Role::fixture) return false;
@@ -93,7 +95,8 @@ bool watched(const Scene& scene, const SceneBody& a, const SceneBody& b,
 
 }  // namespace
 
-WatchedPairs watched_pairs(const Scene& scene, const std::vector<Pair>& before) {
+WatchedPairs watched_pairs(const Scene& scene, const std::vector<Pair>& before,
+                           ToolAndStock tool_and_stock) {
   std::map<std::string, bool> left_out;
   for (const Pair& pair : before) left_out[pair.name] = pair.left_out;
   WatchedPairs out;
@@ -104,7 +107,7 @@ WatchedPairs watched_pairs(const Scene& scene, const std::vector<Pair>& before) 
                                " – everything: it is only drawn (collide = false)");
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j) {
-      if (!watched(scene, bodies[i], bodies[j], out.exclusions)) continue;
+      if (!watched(scene, bodies[i], bodies[j], tool_and_stock, out.exclusions)) continue;
       const bool swap = rank(bodies[j].body.role) < rank(bodies[i].body.role);
       Pair pair;
       pair.a = swap ? j : i;

@@ -19,6 +19,7 @@ struct Pair {
   collide::Budget budget;
   bool left_out = false;    ///< overlapped at the start
   double contact_end = -1;  ///< program time at which the last contact ended; -1 = none
+  bool touching = false;    ///< a probing move has brought them together; not apart again yet
 };
 
 struct WatchedPairs {
@@ -26,8 +27,11 @@ struct WatchedPairs {
   std::vector<std::string> exclusions;  ///< "a – b: reason"
 };
 
+enum class ToolAndStock : unsigned char { left_out, watched };
+
 /// The pairs of a scene; what was left out in `before` stays out.
-WatchedPairs watched_pairs(const Scene& scene, const std::vector<Pair>& before);
+WatchedPairs watched_pairs(const Scene& scene, const std::vector<Pair>& before,
+                           ToolAndStock tool_and_stock = ToolAndStock::left_out);
 
 bool is_tool(machine::Role role);
 /// "tool holder `T1/holder`"

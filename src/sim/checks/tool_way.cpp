@@ -42,8 +42,7 @@ double turn_of(const AxisValues& travel) {
 double parts_of(const plan::Path& path, double tolerance) {
   return std::visit(
       overloaded{
-          [](const plan::Hold&) { return 1.0; },
-          [](const plan::Line&) { return 1.0; },
+          [](const plan::Hold&) { return 1.0; }, [](const plan::Line&) { return 1.0; },
           [&](const plan::Arc& arc) {
             const double r = std::max({arc.start_radius, arc.end_radius, tolerance});
             return std::ceil(std::abs(arc.angle) / (2 * std::acos(1 - tolerance / r)));
@@ -56,6 +55,7 @@ double parts_of(const plan::Path& path, double tolerance) {
                                         .norm());
             return std::ceil(std::sqrt(20 * bend / (8 * tolerance)));
           },
+          [](const plan::JointWay&) { return 16.0; },  // and more by what is seen
       },
       path);
 }
@@ -129,22 +129,32 @@ double time_at(const Step& step, double s) {
 
 namespace {
 
-double turn_over(const plan::Path& path) {
-  return turn_of(plan::bounds(path, 0, plan::length(path)).travel);
+double turn_over(const Step& step) {
+  const plan::Path& path = step.segment.path;
+  const auto* way = std::get_if<plan::JointWay>(&path);
+  if (!way) return turn_of(plan::bounds(path, 0, plan::length(path)).travel);
+  // Of all rotary joints, more than the tool turns.
+  const machine::Machine& machine = step.scene.machine();
+  double turn = 0;
+  for (int j = 0; j < machine.joint_count(); ++j)
+    if (machine.joint(machine::JointId{j}).kind == machine::JointKind::rotary)
+      turn += std::abs(way->to[j] - way->from[j]);
+  return turn;
 }
 
 }  // namespace
 
 bool turns(const Step& step, const machine::RawStock& stock) {
   return stock.link != step.scene.machine().work_link() || step.segment.kinematics ||
-         turn_over(step.segment.path) != 0;
+         turn_over(step) != 0;
 }
 
 bool straight_moves(const Step& step, const machine::RawStock& stock, const Reach& reach,
                     double tolerance, std::vector<StraightMove>& out) {
   if (!(plan::length(step.segment.path) > 0)) return true;
-  if (!turns(step, stock)) return resting_axis(step, stock, tolerance, out);
-  return turning_axis(step, stock, reach, turn_over(step.segment.path), tolerance, out);
+  const bool bends = std::holds_alternative<plan::JointWay>(step.segment.path);
+  if (!bends && !turns(step, stock)) return resting_axis(step, stock, tolerance, out);
+  return turning_axis(step, stock, reach, turn_over(step), tolerance, out);
 }
 
 }  // namespace aircut::sim

@@ -1,0 +1,63 @@
+// CAM systems write the name of an operation as a comment in front of it, often behind other
+// comments (the program's name, the tool). So the last comment before something takes time is its
+// name; a tool change without a comment since the last operation begins one without a name.
+//
+//   (POCKET)  T2 M6  G0 … G1 …   (CONTOUR)  G0 … G1 …   T3 M6  G0 …
+//   └ POCKET ──────────────────┘└ CONTOUR ────────────┘└ (line of M6) ─
+#include "report/operations.h"
+
+namespace aircut::report {
+
+Operation& Operations::current(const sim::Step& step) {
+  constexpr std::size_t most = 1000;
+  if (list_.empty() || (begins_ && list_.size() < most)) {
+    Operation next;
+    next.name = name_;
+    next.line = line_ > 0 ? line_ : step.span().line;
+    list_.push_back(std::move(next));
+    begins_ = false;
+    name_.clear();
+    line_ = 0;
+  }
+  return list_.back();
+}
+
+void Operations::on_step(const sim::Step& step) {
+  const plan::Segment& segment = step.segment;
+  if (const auto* message = std::get_if<canon::Message>(&segment.command.action);
+      message && message->kind == canon::Message::Kind::comment && !message->text.empty()) {
+    begins_ = true;
+    name_ = message->text;
+    line_ = step.span().line;
+  }
+  const auto* change = std::get_if<canon::ChangeTool>(&segment.command.action);
+  if (change && !begins_) {
+    begins_ = true;
+    line_ = step.span().line;
+  }
+  const double time = segment.duration();
+  if (!(time > 0)) return;
+  Operation& operation = current(step);
+  operation.time += time;
+  operation.tool = change ? change->number : segment.tool;
+  switch (segment.kind) {
+    case plan::MotionKind::rapid:
+      operation.rapid += time;
+      break;
+    case plan::MotionKind::tool_change:
+      operation.tool_change += time;
+      break;
+    case plan::MotionKind::feed:
+    case plan::MotionKind::arc:
+    case plan::MotionKind::blend:
+    case plan::MotionKind::probe:
+    case plan::MotionKind::sync:
+      operation.feed += time;
+      break;
+    case plan::MotionKind::idle:
+    case plan::MotionKind::dwell:
+      break;
+  }
+}
+
+}  // namespace aircut::report
