@@ -11,6 +11,23 @@
 #include "render/painter_frame.h"
 
 namespace aircut::render {
+Eigen::Vector4d plane_of(const StageItem& item, const Stage& stage) {
+  return item.model.transpose() * stage.section.value_or(Eigen::Vector4d::Zero());
+}
+
+// Back faces of a closed body that is cut open: they stand for the face of the cut. Where another body
+// begins right behind them, they come first.
+void Painter::draw_inside(const StageItem& item, const Program& program) const {
+  program.set("cut_on", 1.0);
+  gl_->Enable(GL_POLYGON_OFFSET_FILL);
+  gl_->PolygonOffset(-1.0f, -4.0f);
+  gl_->CullFace(GL_FRONT);
+  item.mesh->draw_triangles();
+  gl_->CullFace(GL_BACK);
+  gl_->PolygonOffset(1.0f, 1.0f);
+  program.set("cut_on", 0.0);
+}
+
 void Painter::cull(const GpuMesh& mesh) const {
   if (mesh.shape().closed)
     gl_->Enable(GL_CULL_FACE);
@@ -18,6 +35,13 @@ void Painter::cull(const GpuMesh& mesh) const {
     gl_->Disable(GL_CULL_FACE);
   gl_->CullFace(GL_BACK);
 }
+
+// Bodies drawn from here on lose what lies before the plane of the section.
+void Painter::start_cut(const Stage& stage) const {
+  if (stage.section) gl_->Enable(GL_CLIP_DISTANCE0);
+}
+
+void Painter::end_cut() const { gl_->Disable(GL_CLIP_DISTANCE0); }
 
 void Painter::screen_triangle() const {
   gl_->Disable(GL_CULL_FACE);
@@ -45,12 +69,19 @@ void Painter::draw_shadow_map(const Stage& stage) const {
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5f, 2.0f);
   programs_->depth.use();
+  start_cut(stage);
   for (const StageItem& item : stage.items) {
     if (item.body->translucent || item.small) continue;
     programs_->depth.set("transform", Eigen::Matrix4d(stage.world_to_shadow * item.model));
     cull(*item.mesh);
+    if (stage.section) {
+      // The inside of what is cut open stops the light as the face of the cut would.
+      programs_->depth.set("section", plane_of(item, stage));
+      gl.Disable(GL_CULL_FACE);
+    }
     item.mesh->draw_triangles();
   }
+  end_cut();
   gl.Disable(GL_POLYGON_OFFSET_FILL);
 }
 
@@ -63,12 +94,16 @@ void Painter::draw_light(const Frame& frame) const {
   gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   draw_small_geometry(frame);
   set_body_program(frame, programs_->geometry);
+  start_cut(stage);
   for (const StageItem& item : stage.items) {
     if (item.body->translucent || item.small || !in_view(item.box, frame.to_clip)) continue;
     programs_->geometry.set("model", item.model);
     cull(*item.mesh);
     item.mesh->draw_triangles();
+    if (stage.section && item.mesh->shape().closed) draw_inside(item, programs_->geometry);
   }
+  end_cut();
+  gl.Disable(GL_POLYGON_OFFSET_FILL);
   if (stage.floor) {
     set_body_program(frame, programs_->floor_geometry);
     const Vec3 c = stage.solid.center();
@@ -138,6 +173,10 @@ void Painter::set_body_program(const Frame& frame, const Program& program) const
   program.set("right", frame.stage.lamps.right);
   program.set("ahead", frame.stage.lamps.ahead);
   program.set("light", 0);
+  const Eigen::Vector4d section = frame.stage.section.value_or(Eigen::Vector4d::Zero());
+  program.set("section", section);
+  program.set("cut", section);
+  program.set("cut_on", 0.0);
   program.set("target", Vec3(view.eye - view.axes.row(2).transpose() * view.distance));
   program.set("studio_bend", 0.55 / (view.mm_per_pixel * view.height));
 }
@@ -202,14 +241,21 @@ void Painter::clear_ids(const Tile& tile, bool keep_depth) const {
   gl_->Clear(keep_depth ? GL_COLOR_BUFFER_BIT : GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void Painter::draw_id(const StageItem& item, const Eigen::Matrix4d& to_clip) const {
+void Painter::draw_id(const Stage& stage, const StageItem& item,
+                      const Eigen::Matrix4d& to_clip) const {
   if (!in_view(item.box, to_clip)) return;
   const unsigned id = static_cast<unsigned>(item.index) + 1;
   const Eigen::Vector4d bytes(id & 0xFFu, (id >> 8) & 0xFFu, (id >> 16) & 0xFFu, 255);
   programs_->id.set("transform", Eigen::Matrix4d(to_clip * item.model));
   programs_->id.set("id", Eigen::Vector4d(bytes / 255.0));
   cull(*item.mesh);
+  if (stage.section) {
+    programs_->id.set("section", plane_of(item, stage));
+    gl_->Disable(GL_CULL_FACE);
+  }
+  start_cut(stage);
   item.mesh->draw_triangles();
+  end_cut();
 }
 
 }  // namespace aircut::render

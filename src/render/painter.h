@@ -26,13 +26,13 @@ class Painter {
     start_ids(tile);
     const Eigen::Matrix4d to_clip = tile_projection(stage.view, tile) * stage.view.view;
     for (const StageItem& item : stage.items)
-      if (wanted(*item.body)) draw_id(item, to_clip);
+      if (wanted(*item.body)) draw_id(stage, item, to_clip);
   }
 
  private:
   struct Frame;
   void start_ids(const Tile& tile) const;
-  void draw_id(const StageItem& item, const Eigen::Matrix4d& to_clip) const;
+  void draw_id(const Stage& stage, const StageItem& item, const Eigen::Matrix4d& to_clip) const;
   void draw_light(const Frame& frame) const;
   bool draw_small_shadows(const Stage& stage) const;
   void prepare_small(Frame& frame) const;
@@ -40,6 +40,10 @@ class Painter {
   void draw_small_geometry(const Frame& frame) const;
   void draw_small(const Frame& frame) const;
   void draw_ground(const Frame& frame) const;
+  void draw_cut_depth(const Frame& frame) const;
+  void start_cut(const Stage& stage) const;
+  void end_cut() const;
+  void draw_inside(const StageItem& item, const Program& program) const;
   void draw_solids(const Frame& frame) const;
   void draw_edges(const Frame& frame) const;
   void draw_paths(const Frame& frame) const;

@@ -32,10 +32,17 @@ struct Material {
 };
 Material material_of(const machine::Color& color);
 
+/// The plane of the section in the body's frame.
+Eigen::Vector4d plane_of(const StageItem& item, const Stage& stage);
+
+/// Clip depth as the shaders have it (depth_of).
+Eigen::Vector4d depth_terms(const View& view);
+
 constexpr double edge_lift = 5e-4;  ///< of the distance to the eye
 constexpr double path_lift = 1.2e-3;
 // Stencil values: a body in alarm is seen here, or it is behind something and shown through it.
-constexpr int seen = 2, covered = 1;
+// A bit above them: the face of a cut.
+constexpr int seen = 2, covered = 1, cut_face = 64;
 
 /// Display colour, 0 to 1.
 inline Vec3 display_colour(const machine::Color& c) { return Vec3(c.r, c.g, c.b) / 255.0; }

@@ -47,6 +47,26 @@ std::vector<LineVertex> outline(const StageItem& item, const View& view, std::ar
   return out;
 }
 
+// Where the plane of the section cuts the triangles of a mesh.
+std::vector<LineVertex> cut_outline(const TriangleMesh& mesh, const Eigen::Vector4d& plane,
+                                    std::array<float, 4> ink) {
+  std::vector<LineVertex> out;
+  const auto height = [&](const Vec3& p) { return plane.head<3>().dot(p) + plane.w(); };
+  for (const auto& t : mesh.triangles) {
+    std::vector<std::array<float, 3>> ends;
+    for (unsigned k = 0; k < 3; ++k) {
+      if (t[k] >= mesh.vertices.size() || t[(k + 1) % 3] >= mesh.vertices.size()) break;
+      const Vec3 &a = mesh.vertices[t[k]], &b = mesh.vertices[t[(k + 1) % 3]];
+      const double ha = height(a), hb = height(b);
+      if ((ha > 0) == (hb > 0)) continue;
+      const Eigen::Vector3f p = (a + (b - a) * (ha / (ha - hb))).cast<float>();
+      ends.push_back({p.x(), p.y(), p.z()});
+    }
+    if (ends.size() == 2) out.push_back({ends[0], ends[1], ink});
+  }
+  return out;
+}
+
 std::array<float, 4> edge_ink(const Vec3& display, double opacity) {
   const Eigen::Vector3f c = (display * 0.22 + Vec3(0.03, 0.035, 0.05)).cast<float>();
   return {c.x(), c.y(), c.z(), static_cast<float>(opacity)};
@@ -64,9 +84,14 @@ void Painter::draw_item_edges(const Frame& frame, const StageItem& item) const {
   line.set("model_view", Eigen::Matrix4d(frame.view().view * item.model));
   line.set("fade_below", 3.5 * frame.line_scale);
   gl_->VertexAttrib4f(2, ink[0], ink[1], ink[2], ink[3]);
+  line.set("section", plane_of(item, frame.stage));
+  start_cut(frame.stage);
   item.mesh->draw_creases();
   line.set("fade_below", 0.0);
   LineBatch(*gl_, outline(item, frame.view(), ink, false)).draw();
+  end_cut();
+  if (frame.stage.section)
+    LineBatch(*gl_, cut_outline(*item.mesh->source(), plane_of(item, frame.stage), ink)).draw();
 }
 
 void Painter::draw_edges(const Frame& frame) const {

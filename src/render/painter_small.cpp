@@ -19,14 +19,13 @@ SmallBody small_body(const StageItem& item) {
   return {item.mesh->shape(), item.model, look_of(item.body->color)};
 }
 
-// Clip depth as shaders_small.cpp has it.
+}  // namespace
+
 Eigen::Vector4d depth_terms(const View& view) {
   const Eigen::Matrix4d& P = view.projection;
   return view.orthographic ? Eigen::Vector4d(P(2, 3), P(2, 2), 0, 0)
                            : Eigen::Vector4d(P(2, 2), P(2, 3), 0, 0);
 }
-
-}  // namespace
 
 bool Painter::draw_small_shadows(const Stage& stage) const {
   const Gl& gl = *gl_;

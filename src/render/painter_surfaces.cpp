@@ -72,15 +72,41 @@ void Painter::draw_solids(const Frame& frame) const {
   gl.PolygonOffset(1.0f, 1.0f);
   gl.Enable(GL_STENCIL_TEST);
   gl.StencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  start_cut(frame.stage);
   for (const StageItem& item : frame.stage.items) {
     if (item.body->translucent || item.small || !in_view(item.box, frame.to_clip)) continue;
     gl.StencilFunc(GL_ALWAYS, item.body->highlight ? seen : 0, 0xFF);
     set_material(item, frame);
     cull(*item.mesh);
     item.mesh->draw_triangles();
+    if (!frame.stage.section || !item.mesh->shape().closed) continue;
+    gl.StencilFunc(GL_ALWAYS, (item.body->highlight ? seen : 0) | cut_face, 0xFF);
+    draw_inside(item, programs_->body);
   }
+  end_cut();
+  draw_cut_depth(frame);
   gl.Disable(GL_STENCIL_TEST);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
+}
+
+// What stood for the face of a cut lay behind it: brings the depth forward, so that lines of the
+// body's far side don't show upon it.
+void Painter::draw_cut_depth(const Frame& frame) const {
+  if (!frame.stage.section) return;
+  const Gl& gl = *gl_;
+  const Program& program = programs_->cut_depth;
+  set_body_program(frame, program);
+  program.set("depth_terms", depth_terms(frame.view()));
+  program.set("picture", Eigen::Vector2d(targets_->width, targets_->height));
+  program.set("unproject", frame.unproject);
+  program.set("camera_to_world", Eigen::Matrix4d(frame.view().view.inverse()));
+  gl.StencilFunc(GL_EQUAL, cut_face, cut_face);
+  gl.StencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  gl.DepthFunc(GL_ALWAYS);
+  gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+  screen_triangle();
+  gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl.DepthFunc(GL_LEQUAL);
 }
 
 void Painter::draw_translucent(const Frame& frame) const {
@@ -95,10 +121,12 @@ void Painter::draw_translucent(const Frame& frame) const {
     gl.Enable(GL_BLEND);
     gl.DepthMask(GL_FALSE);
     gl.Enable(GL_CULL_FACE);
+    start_cut(frame.stage);
     gl.CullFace(GL_FRONT);
     it->mesh->draw_triangles();
     gl.CullFace(GL_BACK);
     it->mesh->draw_triangles();
+    end_cut();
     set_line_program(frame, 1.0, edge_lift, 1);
     draw_item_edges(frame, *it);
   }

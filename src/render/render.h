@@ -64,11 +64,18 @@ struct Caption {
   std::string alarm;               ///< shown in red when not empty
 };
 
+/// What lies on the side of `normal` is cut away; closed bodies are shown as full there.
+struct Section {
+  Vec3 point = Vec3::Zero();    ///< world, mm
+  Vec3 normal = Vec3::UnitZ();  ///< world, unit
+};
+
 struct Scene {
   std::vector<DrawBody> bodies;
   std::vector<DrawLine> lines;
   std::vector<DrawMarker> markers;
   Caption caption;
+  std::optional<Section> section;
   bool floor = true;
   bool triad = true;
 };

@@ -45,6 +45,7 @@ vec3 position_at(ivec2 pixel, float depth) {
 
 const char* const body_vertex = R"(layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+uniform vec4 section;        // where n·p + d is above 0 bodies are cut away; world
 uniform mat4 model;          // body to world
 uniform mat4 view;           // world to camera
 uniform mat4 projection;     // camera to clip space of the tile
@@ -58,6 +59,7 @@ void main() {
   world_normal = mat3(model) * normal;
   view_depth = -v.z;
   gl_Position = projection * v;
+  gl_ClipDistance[0] = -dot(section, w);
 }
 )";
 
@@ -142,6 +144,32 @@ vec3 shaded(vec3 world_position, vec3 n, vec3 base, float metal, float roughness
 }
 )";
 
+// Where a body is cut open, its inside is seen: what is shown there is the face of the cut, at the
+// place where the line of sight enters it.
+const char* const cut_face = R"(
+uniform vec4 cut;            // the plane of the cut, world
+uniform float cut_on;        // 1: back faces stand for the face of the cut
+vec3 on_cut(vec3 world, vec3 from_eye) {
+  return world - from_eye * ((dot(cut.xyz, world) + cut.w) / min(dot(cut.xyz, from_eye), -1e-6));
+}
+)";
+
+// The depth of the cut's plane.
+const char* const cut_depth_fragment = R"(uniform vec4 cut;
+uniform vec2 picture;        // pixels of the tile
+uniform vec4 unproject;      // scale and offset from clip to camera coordinates
+uniform mat4 camera_to_world;
+out vec4 color;
+void main() {
+  vec2 q = (gl_FragCoord.xy / picture * 2.0 - 1.0 + unproject.zw) * unproject.xy;
+  // The ray advances by 1 mm of depth.
+  vec3 ray = mat3(camera_to_world) * vec3(parallel > 0.5 ? vec2(0.0) : q, -1.0);
+  vec4 from = camera_to_world * vec4(parallel > 0.5 ? q : vec2(0.0), 0.0, 1.0);
+  color = vec4(0.0);
+  gl_FragDepth = window_depth(-dot(cut, from) / min(dot(cut.xyz, ray), -1e-6));
+}
+)";
+
 const char* const body_fragment = R"(in vec3 world_position;
 in vec3 world_normal;
 in float view_depth;
@@ -150,11 +178,19 @@ uniform float metal;
 uniform float roughness;
 uniform float opacity;
 uniform float use_light;
+uniform mat4 view;
 out vec4 color;
 void main() {
   vec3 n = normalize(gl_FrontFacing ? world_normal : -world_normal);
-  vec2 g = use_light > 0.5 ? gathered(view_depth, fwidth(view_depth)) : vec2(1.0);
-  vec3 c = shaded(world_position, n, base, metal, roughness, g);
+  vec3 at = world_position;
+  float depth = view_depth;
+  if (cut_on > 0.5) {
+    n = cut.xyz;
+    at = on_cut(at, parallel > 0.5 ? -back : at - eye);
+    depth = -(view * vec4(at, 1.0)).z;
+  }
+  vec2 g = use_light > 0.5 ? gathered(depth, fwidth(depth)) : vec2(1.0);
+  vec3 c = shaded(at, n, base, metal, roughness, g);
   vec3 v = parallel > 0.5 ? back : normalize(eye - world_position);
   float rim_opacity = opacity < 1.0 ? mix(0.85, opacity, smoothstep(0.0, 0.55, clamp(abs(dot(n, v)), 0.0, 1.0))) : 1.0;
   color = vec4(c, rim_opacity);
@@ -165,16 +201,28 @@ const char* const geometry_fragment = R"(in vec3 world_position;
 in vec3 world_normal;
 in float view_depth;
 uniform mat4 view;
+uniform vec3 eye;             // world
+uniform vec3 back;            // from the scene to the eye, for parallel views
 out vec4 geometry;           // normal in the camera's frame, depth
 void main() {
   vec3 n = normalize(gl_FrontFacing ? world_normal : -world_normal);
-  geometry = vec4(mat3(view) * n, view_depth);
+  float depth = view_depth;
+  if (cut_on > 0.5) {
+    n = cut.xyz;
+    vec3 at = on_cut(world_position, parallel > 0.5 ? -back : world_position - eye);
+    depth = -(view * vec4(at, 1.0)).z;
+  }
+  geometry = vec4(mat3(view) * n, depth);
 }
 )";
 
 const char* const depth_vertex = R"(layout(location = 0) in vec3 position;
 uniform mat4 transform;
-void main() { gl_Position = transform * vec4(position, 1.0); }
+uniform vec4 section;        // in the body's frame
+void main() {
+  gl_Position = transform * vec4(position, 1.0);
+  gl_ClipDistance[0] = -dot(section, vec4(position, 1.0));
+}
 )";
 
 const char* const depth_fragment = R"(void main() {}
@@ -398,10 +446,12 @@ uniform float lift;          // part of the distance
 uniform float parallel;
 uniform float near;          // mm
 uniform float fade_below;    // lines shorter than this many pixels fade
+uniform vec4 section;        // in the frame of the line's ends
 out vec4 line_ink;
 out float across;
 out float half_width;
 void main() {
+  gl_ClipDistance[0] = -dot(section, vec4((gl_VertexID & 1) == 1 ? to : from, 1.0));
   vec3 a = (model_view * vec4(from, 1.0)).xyz, b = (model_view * vec4(to, 1.0)).xyz;
   if (parallel < 0.5) {
     float limit = -near * 1.001;

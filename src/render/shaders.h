@@ -9,10 +9,13 @@ extern const char* const gather_light;
 extern const char* const half_position;
 extern const char* const parallel_view;
 extern const char* const surface;
+extern const char* const depth_of;
 extern const char* const small_texel;
 
-// Surfaces of bodies, lit.
+// Surfaces of bodies, lit; faces of cuts.
 extern const char* const body_vertex;
+extern const char* const cut_face;
+extern const char* const cut_depth_fragment;
 extern const char* const body_fragment;
 // Normals and depth of opaque surfaces in half resolution; shadow map; numbers of bodies.
 extern const char* const geometry_fragment;

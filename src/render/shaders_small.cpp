@@ -3,22 +3,25 @@
 
 namespace aircut::render::shaders {
 
+const char* const depth_of = R"(
+uniform vec4 depth_terms;    // clip depth is x - y·d in a parallel view, y / d - x otherwise
+float window_depth(float d) {
+  float clip = parallel > 0.5 ? depth_terms.x - depth_terms.y * d : depth_terms.y / d - depth_terms.x;
+  return clip * 0.5 + 0.5;
+}
+)";
+
 const char* const small_texel = R"(
 uniform usampler2D small;
-uniform vec4 depth_terms;    // clip depth is x - y·d in a parallel view, y / d - x otherwise
 float signed_16(uint bits) { return float(int(bits << 16) >> 16) / 32767.0; }
 vec3 normal_of(uvec4 t) {
   vec3 n = vec3(signed_16(t.y), signed_16(t.y >> 16), signed_16(t.z));
   return normalize(n + vec3(0.0, 0.0, 1e-9));
 }
 int cover_of(uvec4 t) { return int(t.z >> 16) & 15; }
-// mm in front of the eye, and back.
+// mm in front of the eye.
 float view_depth_of(float clip) {
   return parallel > 0.5 ? (depth_terms.x - clip) / depth_terms.y : depth_terms.y / (clip + depth_terms.x);
-}
-float window_depth(float d) {
-  float clip = parallel > 0.5 ? depth_terms.x - depth_terms.y * d : depth_terms.y / d - depth_terms.x;
-  return clip * 0.5 + 0.5;
 }
 )";
 

@@ -158,13 +158,17 @@ Stage make_stage(const Scene& scene, const Camera& camera, MeshCache& meshes, in
   }
   out.view = make_view(camera, with_floor, width, height);
   const Vec3 centre = out.view.centre;
+  if (scene.section) {
+    const Vec3& n = scene.section->normal;
+    out.section = Eigen::Vector4d(n.x(), n.y(), n.z(), -n.dot(scene.section->point - centre));
+  }
   for (StageItem& item : out.items) {
     item.model.topRightCorner<3, 1>() -= centre;
     item.box.translate(-centre);
     item.depth = 1e300;
     for (const Vec3& corner : corners(item.box))
       item.depth = std::min(item.depth, -(out.view.axes.row(2) * (corner - out.view.eye)).value());
-    item.small = has_small_triangles(item, out.view);
+    item.small = !out.section && has_small_triangles(item, out.view);
   }
   std::stable_sort(out.items.begin(), out.items.end(),
                    [](const StageItem& a, const StageItem& b) { return a.depth < b.depth; });

@@ -40,6 +40,8 @@ struct Stage {
   Box3 solid;                    ///< of all bodies, render frame; may be empty
   Lamps lamps;
   std::optional<Floor> floor;
+  /// Normal and offset in the render frame: bodies are seen where n·p + d <= 0.
+  std::optional<Eigen::Vector4d> section;
   Eigen::Matrix4d world_to_shadow = Eigen::Matrix4d::Identity();  ///< to clip space
   double shadow_size = 1, shadow_depth = 1;                       ///< of the map, mm
   double diagonal = 1;                                            ///< of all bodies, mm

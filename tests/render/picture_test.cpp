@@ -172,6 +172,36 @@ TEST(Picture, DrawsAGroundUnderSmallTrianglesAlone) {
   EXPECT_LT(darkest + 15, pixel(image, 10, 300)[0]);
 }
 
+TEST(Picture, CutsBodiesOpenAndShowsThemFull) {
+  Renderer r = renderer(side, side);
+  // From the front: a post stands inside the walls of a box, which is cut away down to y = 0.
+  TriangleMesh walls = block(100, 100, 100);
+  const TriangleMesh room = block(80, 80, 80);
+  for (const auto& t : room.triangles)  // turned round: a hollow
+    walls.triangles.push_back({t[0] + 8, t[2] + 8, t[1] + 8});
+  walls.vertices.insert(walls.vertices.end(), room.vertices.begin(), room.vertices.end());
+  Scene scene = bare_scene({body("walls", std::move(walls)), body("post", block(20, 20, 80))});
+  scene.bodies[0].color = {40, 90, 190};
+  scene.bodies[1].color = {190, 60, 40};
+  EXPECT_EQ(r.visible_pixels(scene, front_camera(200)).at(1), 0);
+  scene.section = Section{Vec3(0, 0, 0), Vec3(0, -1, 0)};
+  const auto counts = r.visible_pixels(scene, front_camera(200));
+  EXPECT_NEAR(counts.at(1), 40 * 160, 200);
+  EXPECT_NEAR(counts.at(0), 200 * 200 - 40 * 160, 500);
+  const Image image = r.draw(scene, front_camera(200));
+  const auto post = pixel(image, 200, 200), wall = pixel(image, 110, 200);
+  EXPECT_GT(post[0], post[2] + 40);
+  EXPECT_GT(wall[2], wall[0] + 40);
+  // The face of the cut is one even surface: nothing of the far side's edges shows upon it.
+  for (int y = 150; y < 250; ++y)
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(pixel(image, 110, y)[c], wall[c], 8);
+  // Lit as a wall that stands there would be.
+  Scene solid = bare_scene({body("slab", block(100, 50, 100), Vec3(0, 25, 0))});
+  solid.bodies[0].color = {40, 90, 190};
+  const auto front = pixel(r.draw(solid, front_camera(200)), 110, 200);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(front[c], wall[c], 30);
+}
+
 TEST(Picture, MarksAContactEvenBehindABody) {
   Renderer r = renderer(side, side);
   Scene scene = bare_scene({body("box", block(100, 100, 100))});
