@@ -22,11 +22,21 @@ void main() {
   if (dot(section.xyz, at) + section.w < 0.0) discard;
 #endif
   vec3 normal = normalize(cross(dFdx(at), dFdy(at)));
+  vec3 paint = color;
+#ifdef SECTION
+  // Inside a body that is cut open: shown as the face of the cut, one even surface.
+  if (!gl_FrontFacing) {
+    normal = -section.xyz;
+    paint *= 0.8;
+  }
+  // Before another body that begins right behind it.
+  gl_FragDepth = gl_FragCoord.z * (gl_FrontFacing ? 1.0 : 0.99999);
+#endif
   float sun = max(dot(normal, vec3(0.32, 0.48, 0.816)), 0.0);
   float shine = max(dot(normal, vec3(0.168, 0.252, 0.953)), 0.0);
   shine *= shine; shine *= shine; shine *= shine; shine *= shine;
   vec3 light = mix(vec3(0.20, 0.19, 0.18), vec3(0.52, 0.53, 0.55), 0.5 + 0.5 * dot(normal, up));
-  seen = vec4(sqrt(color * (light + 0.62 * sun) + 0.10 * shine + glow), 1.0);
+  seen = vec4(sqrt(paint * (light + 0.62 * sun) + 0.10 * shine + glow), 1.0);
 }`;
 
 // Materials share the section plane and the way up; update(camera) brings both into its frame.
