@@ -232,15 +232,29 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       ->type_name("SPEC");
   c_run
       ->add_option("--camera", run.camera,
-                   "work, iso, front, back, left, right, top or X,Y,Z,tx,ty,tz")
+                   "work, tool (follows it), iso, front, back, left, right, top or "
+                   "X,Y,Z,tx,ty,tz")
       ->type_name("NAME");
+  c_run
+      ->add_option("--section", run.section,
+                   "cut the pictures open at a plane of the work's frame: X=12.5, Y=0 or Z=-4 (mm)")
+      ->type_name("AXIS=MM");
+  c_run
+      ->add_option("--hide", run.hidden,
+                   "a body that pictures leave out; NAME* for all that begin "
+                   "so (repeatable)")
+      ->type_name("BODY");
+  c_run
+      ->add_option("--see-through", run.see_through,
+                   "a body that pictures show translucent, such as a cover (repeatable)")
+      ->type_name("BODY");
   c_run->add_option("--size", size, "picture size (default 1280x800)")->type_name("WxH");
   c_run
       ->add_option("--motion", run.motion,
                    "animation in the folder: glb writes motion.glb (glTF 2.0), png the frames by "
-                   "time as motion.png (repeatable)")
-      ->check(CLI::IsMember({"glb", "png"}).description(""))
-      ->type_name("glb|png");
+                   "time as motion.png, mp4 as motion.mp4 through an installed ffmpeg (repeatable)")
+      ->check(CLI::IsMember({"glb", "png", "mp4"}).description(""))
+      ->type_name("glb|png|mp4");
   c_run
       ->add_option("--max-sim-time", run.max_time,
                    "simulated seconds before the run ends as unknown")

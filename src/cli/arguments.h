@@ -57,6 +57,8 @@ struct RunArguments {
   std::vector<std::string> checks;  ///< empty: all
   std::vector<std::string> frames;
   std::string camera = "work";
+  std::string section;                           ///< --section AXIS=MM; empty: none
+  std::vector<std::string> hidden, see_through;  ///< bodies, by name or NAME*
   int width = 1280, height = 800;
   std::vector<std::string> motion;  ///< forms of the animation
   std::optional<double> max_time;

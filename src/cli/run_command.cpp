@@ -226,6 +226,14 @@ Expected<report::FrameOptions> frame_options(const RunArguments& a) {
   options.size = {a.width, a.height};
   options.program = a.program.program;
   options.motion = wants_motion(a, "png");
+  options.video = wants_motion(a, "mp4");
+  options.hidden = a.hidden;
+  options.see_through = a.see_through;
+  if (!a.section.empty()) {
+    const auto section = report::section_of(a.section);
+    if (!section) return unexpected(section.error());
+    options.section = *section;
+  }
   for (const std::string& text : a.frames)
     if (text != "none")
       if (auto added = report::add_frames(options.spec, text); !added)
@@ -234,7 +242,7 @@ Expected<report::FrameOptions> frame_options(const RunArguments& a) {
     options.spec.count = 12;
     options.spec.findings = true;
   }
-  if (a.camera != "work")
+  if (a.camera != "work" && a.camera != "tool")
     if (const auto camera = render::camera_by_name(a.camera, Box3(Vec3(0, 0, 0), Vec3(1, 1, 1)), 1);
         !camera)
       return unexpected(camera.error());
@@ -252,8 +260,11 @@ int run_command(const RunArguments& a) {
     return fail(make_error("usage", "--frames needs -o DIR to write into"));
   if (a.folder.empty() && !a.motion.empty())
     return fail(make_error("usage", "--motion needs -o DIR to write into"));
-  if (wants_motion(a, "png") && !wants_frames(a))
-    return fail(make_error("usage", "--motion png shows the frames: --frames none leaves none"));
+  if ((frames->motion || frames->video) && !wants_frames(a))
+    return fail(
+        make_error("usage", "--motion png and mp4 show the frames: --frames none leaves none"));
+  if (frames->video)
+    if (const auto ready = report::video_ready(); !ready) return fail(ready.error());
   if (const auto ok = check_outputs(a); !ok) return fail(ok.error());
   const bool as_hdf5 = fs::path(a.log).extension() == ".h5";
   if (as_hdf5)
@@ -333,6 +344,7 @@ int run_command(const RunArguments& a) {
   simulator.add_observer(operations);
   std::unique_ptr<report::FrameMaker> pictures;
   if (!a.folder.empty() && frames->spec.any()) {
+    if (const auto ok = report::check_bodies(*job.machine, *frames); !ok) return fail(ok.error());
     pictures = std::make_unique<report::FrameMaker>(job.machine, job.tools, *frames);
     simulator.add_observer(*pictures);
   }

@@ -29,11 +29,28 @@ Expected<void> add_frames(FrameSpec& spec, const std::string& text);
 
 struct FrameOptions {
   FrameSpec spec;
-  std::string camera = "work";  ///< `work` (the work and the tool), or a name of camera_by_name
+  /// `work` (the work and the tool), `tool` (follows its tip), or a name of camera_by_name
+  std::string camera = "work";
   render::FrameSize size;
   std::string program;  ///< for the caption
   bool motion = false;  ///< also motion.png: the sheet's pictures one after the other
+  bool video = false;   ///< also motion.mp4, by ffmpeg
+  /// A plane of the work's frame; what stands before it, as the camera sees it, is cut away.
+  struct Section {
+    Vec3 normal = Vec3::UnitX();
+    double at = 0;  ///< mm along the normal
+  };
+  std::optional<Section> section;
+  /// Bodies not drawn, and drawn translucent: names, or their beginning and a `*`.
+  std::vector<std::string> hidden, see_through;
 };
+
+/// `X=12.5`, `Y=…` or `Z=…`. Error kind `usage`.
+Expected<FrameOptions::Section> section_of(const std::string& text);
+/// Whether motion.mp4 can be made. Error kind `output_failed`.
+Expected<void> video_ready();
+/// Error kind `usage` when `hidden` or `see_through` name no body of the machine or of a tool.
+Expected<void> check_bodies(const machine::Machine& machine, const FrameOptions& options);
 
 /// A moment of the run that may become a picture.
 struct Snapshot {
@@ -42,7 +59,8 @@ struct Snapshot {
   int tool = 0;
   SourceSpan span;
   plan::MotionKind kind = plan::MotionKind::idle;
-  double feed = 0;  ///< achieved, mm/s
+  double feed = 0;          ///< achieved, mm/s
+  Vec3 tip = Vec3::Zero();  ///< of the tool, the work's frame, mm
 };
 
 /// Bodies of a scene at joints, ready to draw.
