@@ -15,8 +15,8 @@ Eigen::Vector4d plane_of(const StageItem& item, const Stage& stage) {
   return item.model.transpose() * stage.section.value_or(Eigen::Vector4d::Zero());
 }
 
-// Back faces of a closed body that is cut open: they stand for the face of the cut. Where another body
-// begins right behind them, they come first.
+// Back faces of a closed body that is cut open: they stand for the face of the cut. Where another
+// body begins right behind them, they come first.
 void Painter::draw_inside(const StageItem& item, const Program& program) const {
   program.set("cut_on", 1.0);
   gl_->Enable(GL_POLYGON_OFFSET_FILL);
