@@ -328,9 +328,6 @@ void work_system(const CodeRule& rule, BlockRun& run) {
   if (system == run.state.system) return;
   run.set_parameter(number::active_system, system);
   load_work_system(run, system);
-  // The registers of G92 are read again too: the program may have set them.
-  run.state.g92 =
-      run.parameter(number::g92_applied) != 0 ? run.stored_axes(number::g92_offset) : AxisValues{};
   run.emit_work_offset();
   run.emit_g92();
   run.emit_rotation();
