@@ -9,10 +9,10 @@ namespace fs = std::filesystem;
 class Pictures : public Program {
  protected:
   Outcome run(const std::string& more) {
+    const bool sized = more.find("--size") != std::string::npos;
     return aircut(
-        "run programs/holder-into-vise.ngc -m mill3 --check limits --size 160x120 "
-        "--log null --force -o " +
-        path("out") + " " + more);
+        "run programs/holder-into-vise.ngc -m mill3 --check limits --log null --force -o " +
+        path("out") + (sized ? " " : " --size 160x120 ") + more);
   }
   // A PATH that holds nothing but `timeout`, which the tests use, and what is put there as ffmpeg.
   void only_ffmpeg(const std::string& script) {

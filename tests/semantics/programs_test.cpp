@@ -127,6 +127,7 @@ TEST(Programs, OfTheInterpretersTestsEachDoubtIsRight) {
       "coolant_overrides_io.ngc wait_code 21",  // M66 L3
       "cycles_all.ngc cycle_modal_change 14",   // G18 and G19 in a group of cycles
       "cycles_all.ngc cycle_modal_change 16",
+      "offsets_g92.ngc offset_left_on 21",
       "warnings.ngc comp_rapid 16",
       "warnings.ngc comp_rapid 19",
       "warnings.ngc cycle_modal_change 22",
