@@ -30,7 +30,7 @@ void main() {
     paint *= 0.8;
   }
   // Before another body that begins right behind it.
-  gl_FragDepth = gl_FragCoord.z * (gl_FrontFacing ? 1.0 : 0.99999);
+  gl_FragDepth = gl_FragCoord.z * (gl_FrontFacing ? 1.0 : 0.9999996);
 #endif
   float sun = max(dot(normal, vec3(0.32, 0.48, 0.816)), 0.0);
   float shine = max(dot(normal, vec3(0.168, 0.252, 0.953)), 0.0);
