@@ -1,6 +1,6 @@
 // CAM systems write the name of an operation as a comment in front of it, often behind other
 // comments (the program's name, the tool). So the last comment before something takes time is its
-// name; a tool change without a comment since the last operation begins one without a name.
+// name; a tool change after a feed move, without a comment since, begins one without a name.
 //
 //   (POCKET)  T2 M6  G0 … G1 …   (CONTOUR)  G0 … G1 …   T3 M6  G0 …
 //   └ POCKET ──────────────────┘└ CONTOUR ────────────┘└ (line of M6) ─
@@ -31,7 +31,8 @@ void Operations::on_step(const sim::Step& step) {
     line_ = step.span().line;
   }
   const auto* change = std::get_if<canon::ChangeTool>(&segment.command.action);
-  if (change && !begins_) {
+  // The way to the change belongs to the operation that the comment before it has named.
+  if (change && !begins_ && !list_.empty() && list_.back().feed > 0) {
     begins_ = true;
     line_ = step.span().line;
   }

@@ -66,6 +66,18 @@ TEST_F(OperationsTest, BeginWithCommentsAndToolChanges) {
   EXPECT_EQ(list[2].time, 5);
 }
 
+TEST_F(OperationsTest, HaveTheWayToTheirToolChange) {
+  cut(1);
+  comment("POCKET");
+  rapid(2);
+  change(1);
+  cut(3);
+  ASSERT_EQ(operations_.list().size(), 2u);
+  EXPECT_EQ(operations_.list()[1].name, "POCKET");
+  EXPECT_EQ(operations_.list()[1].time, 8);
+  EXPECT_EQ(operations_.list()[1].tool, 1);
+}
+
 TEST_F(OperationsTest, OfAProgramWithoutWordsAreOne) {
   cut(1);
   cut(2);

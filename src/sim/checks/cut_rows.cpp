@@ -57,13 +57,18 @@ Finding cut_row(Kind kind, const Step& step, const StraightMove& move, const Who
 namespace {
 
 std::string name_of(const Who& who) {
-  return (who.role == machine::Role::shank ? "tool shank `" : "tool holder `") + who.name + "`";
+  const char* what = who.role == machine::Role::probe   ? "probe `"
+                     : who.role == machine::Role::shank ? "tool shank `"
+                                                        : "tool holder `";
+  return what + who.name + "`";
 }
 
 }  // namespace
 
 void tell_hit(Finding& row, const Who& who, double depth_bound, const std::string& remedy) {
-  row.message = name_of(who) + " runs into stock that the cutter leaves standing";
+  row.message = name_of(who) + (who.role == machine::Role::probe
+                                    ? " touches the stock"
+                                    : " runs into stock that the cutter leaves standing");
   row.depth_bound = depth_bound;
   row.remedy = remedy;
 }
