@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace aircut::plan {
 namespace {
@@ -160,6 +161,20 @@ double acceleration_to(const Grid& grid, std::size_t node, double b0, double b1)
   return b1 * ramp - ramp * b0;
 }
 
+// A braking from b that comes to rest inside the interval behind `node`, if there is one: all rows
+// of both ends hold for it at b and at rest, so they do in between. Without it a motion that is
+// nearly at rest would crawl to the next node.
+std::optional<double> braking_to_rest(const Grid& grid, std::size_t node, double b) {
+  const double room = grid.at[node].room;
+  double steepest = infinity;
+  for (const std::size_t end : {node, node + 1})
+    for (int j = 0; j < grid.joints; ++j)
+      steepest = std::min(steepest, room / std::max(std::abs(grid.alpha(end)[j]), 1e-300));
+  for (double u = -steepest; - u > steepest / 16; u /= 2)
+    if (allows(grid, node, b, b, u)) return u;
+  return std::nullopt;
+}
+
 struct RideMaker {
   Ride ride;
   CauseTimes spent;
@@ -261,8 +276,12 @@ Descent descend(const Grid& grid, const Controllable& controllable, double b_sta
   } else {
     for (std::size_t k = 0; k + 1 < grid.nodes() && !out.done; ++k) {
       const double ds = grid.at[k + 1].s - grid.at[k].s;
-      const double u = Interval(grid, k, infinity).smallest_u(b);
-      const double next = std::max(b + 2 * u * ds, 0.0);
+      double u = Interval(grid, k, infinity).smallest_u(b), next = std::max(b + 2 * u * ds, 0.0);
+      if (next <= 1e-9 * b && controllable[k] == 0 && controllable[k + 1] == 0)
+        if (const auto harder = braking_to_rest(grid, k, b); harder && *harder < u) {
+          u = *harder;
+          next = b + 2 * u * ds;  // below 0: it rests before
+        }
       const double over = b - controllable[k], later = next - controllable[k + 1];
       const double f = over <= 0 ? 0 : later <= 0 ? over / (over - later) : 1;
       out.done = over <= 0 || later <= 0;
@@ -270,7 +289,7 @@ Descent descend(const Grid& grid, const Controllable& controllable, double b_sta
       if (out.done && f > 1 - 1e-9)
         go(ds, std::min(next, controllable[k + 1]), cause);
       else
-        go(f * ds, b + f * (next - b), cause);
+        go(f * ds, std::max(b + f * (next - b), 0.0), cause);
     }
   }
   out.s = maker.s;

@@ -99,6 +99,17 @@ std::shared_ptr<machine::Machine> polar_machine(double v_r, double v_theta, doub
   return m;
 }
 
+TEST(Descent, OfAHeldMotionThatHardlyMovesRestsAtOnce) {
+  const Grid grid = with_nodes(1, 50, 1000, 2);
+  const Controllable held(grid.nodes(), 0.0);
+  for (const double b : {1e-17, 1e-9, 1.0}) {
+    const Descent descent = descend(grid, held, b);
+    EXPECT_TRUE(descent.done);
+    EXPECT_NEAR(descent.ride.b_end, 0, 1e-9 * b);
+    EXPECT_NEAR(descent.ride.profile.duration(), std::sqrt(b) / 1000, 1e-3 * std::sqrt(b) / 1000);
+  }
+}
+
 TEST(Polar, CentreIsPassedAsSlowlyAsTheAngleNeeds) {
   for (const auto& c : vectors("planner-polar-singularity.json")) {
     const double offset = c["offset_mm"], half = c["half_length_mm"];
