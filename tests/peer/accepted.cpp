@@ -204,6 +204,7 @@ class Rules {
   std::optional<Excuse> stand_in_unit() const;
   std::optional<Excuse> stand_in_reload() const;
   bool same_call() const;
+  std::optional<Excuse> probe_of_no_way() const;
   std::optional<Excuse> rounding() const;
 
   const std::string& program_;
@@ -303,6 +304,17 @@ bool Rules::same_call() const {
   return !name.empty() && told(difference_, "    reference: ").starts_with(name + "(");
 }
 
+// There a position that went through inches and back is another one by 1e-16, and the probe moves.
+std::optional<Excuse> Rules::probe_of_no_way() const {
+  const bool earlier = is("refused at another line") || is("only own refuses") || is("stopped at");
+  if (!earlier || !acted(own_, {"G20"}) || !acted(own_, {"G21"}) ||
+      own_.error_text.find("the end of the probing move is the current point") == std::string::npos)
+    return std::nullopt;
+  return Excuse{"rounding decides", without(program_, [&](std::size_t number, const std::string&) {
+                  return number == own_.error_at;
+                })};
+}
+
 // A difference of 1e-16 decides whether the level where a cycle begins is its R, whether a peck
 // meets the bottom, or whether a condition is true.
 std::optional<Excuse> Rules::rounding() const {
@@ -319,9 +331,9 @@ std::optional<Excuse> Rules::rounding() const {
 }
 
 std::optional<Excuse> Rules::excuse() const {
-  for (const auto rule :
-       {&Rules::refused_here, &Rules::refused_there, &Rules::unreadable_line, &Rules::other_rates,
-        &Rules::stand_in_tool, &Rules::stand_in_unit, &Rules::stand_in_reload, &Rules::rounding})
+  for (const auto rule : {&Rules::refused_here, &Rules::refused_there, &Rules::unreadable_line,
+                          &Rules::other_rates, &Rules::stand_in_tool, &Rules::stand_in_unit,
+                          &Rules::stand_in_reload, &Rules::probe_of_no_way, &Rules::rounding})
     if (auto found = (this->*rule)()) return found;
   return std::nullopt;
 }

@@ -54,11 +54,11 @@ void tell_bore_of_tangent(BlockRun& run) {
   cycle.j = -run.number_or('Q', 0);
 }
 
-// L may stand in any of the lines: the largest one counts, and 3 at least.
+// L may stand in any of the lines: the last one above 3 counts, without one the order is 3.
 bool nurbs_order(BlockRun& run) {
   if (!run.has('L')) return true;
   const auto order = run.integer('L', 0, 20, "spline_error");
-  if (order) run.state.nurbs_order = std::max(run.state.nurbs_order, *order);
+  if (order && *order > 3) run.state.nurbs_order = *order;
   return order.has_value();
 }
 
