@@ -147,10 +147,20 @@ std::string with_rounded_conditions(const std::string& program) {
   return out;
 }
 
-/// With each R word a bit larger, so that no level is met to the last bit.
+/// With each R word a bit larger, and the later ones more, so that no level is met to the last bit,
+/// also not that of a cycle before.
 std::string with_other_levels(const std::string& program) {
   static const std::regex level(R"((R\s*)([-+]?[0-9]+\.?[0-9]*|[-+]?\.[0-9]+))", std::regex::icase);
-  return std::regex_replace(program, level, "$1[$2*1.00137+0.00113]");
+  std::string out;
+  auto from = program.begin();
+  int count = 0;
+  for (std::sregex_iterator at(program.begin(), program.end(), level), end; at != end; ++at) {
+    const std::string times = ++count == 1 ? "" : "*" + std::to_string(count);
+    out.append(from, program.begin() + at->position());
+    out += at->str(1) + "[" + at->str(2) + "*1.00137+0.00113" + times + "]";
+    from = program.begin() + at->position() + at->length();
+  }
+  return out.append(from, program.end());
 }
 
 /// Without a length offset when the unit changes.
