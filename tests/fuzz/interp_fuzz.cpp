@@ -1,10 +1,10 @@
 // Programs from outside: any bytes, with small limits. A first byte below 4 chooses the dialect.
-// What comes out must be finite numbers, and
-// come to an end, and be the same with and without the interpreter's fast paths. Called files
-// resolve to the same bytes.
+// What comes out must be finite numbers, come to an end, and be the same with and without the
+// interpreter's fast paths. Called files resolve to the same bytes.
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "interp/interp.h"
@@ -41,8 +41,11 @@ std::string told_by(const std::string& bytes, interp::Options options) {
   options.limits.max_blocks = 2000;
   options.limits.max_idle_blocks = 1000;
   options.limits.max_repeat = 100;
+  std::map<std::string, const SourceText*> files;  // each is read once, as SourceMap::open does
   const SourceReader reader = [&](const std::string& path) -> Expected<const SourceText*> {
-    return &sources.add(path, bytes);
+    const SourceText*& file = files[path];
+    if (!file) file = &sources.add(path, bytes);
+    return file;
   };
   Diagnostics out;
   interp::Interpreter run(text, some_tools(), {}, options, reader, out);

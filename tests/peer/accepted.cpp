@@ -57,7 +57,8 @@ constexpr Rule refused_there_only[] = {
     {"Requested tool -1 not found", "G43.2 with axis words"}};
 
 /// How the reference calls what it can't read, with or without executing it.
-constexpr const char* unreadable[] = {"Unclosed comment found", "Non integer value for integer"};
+constexpr const char* unreadable[] = {"Unclosed comment found", "Nested comment found",
+                                      "Non integer value for integer"};
 
 const Rule* rule_in(const Rule* begin, const Rule* end, const std::string& text) {
   const Rule* found = std::find_if(
