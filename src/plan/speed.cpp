@@ -287,7 +287,7 @@ Descent descend(const Grid& grid, const Controllable& controllable, double b_sta
       out.done = over <= 0 || later <= 0;
       const Cause cause = cause_at(grid, k, b, next, u);
       if (out.done && f > 1 - 1e-9)
-        go(ds, std::min(next, controllable[k + 1]), cause);
+        go(ds, std::max(std::min(next, controllable[k + 1]), 0.0), cause);
       else
         go(f * ds, std::max(b + f * (next - b), 0.0), cause);
     }
