@@ -286,10 +286,13 @@ Descent descend(const Grid& grid, const Controllable& controllable, double b_sta
       const double f = over <= 0 ? 0 : later <= 0 ? over / (over - later) : 1;
       out.done = over <= 0 || later <= 0;
       const Cause cause = cause_at(grid, k, b, next, u);
+      if (over <= 0) break;
+      // Where both meet it is what is asked for, to the bit: rest is rest.
+      const double met = controllable[k] + f * (controllable[k + 1] - controllable[k]);
       if (out.done && f > 1 - 1e-9)
-        go(ds, std::max(std::min(next, controllable[k + 1]), 0.0), cause);
+        go(ds, std::clamp(next, 0.0, controllable[k + 1]), cause);
       else
-        go(f * ds, std::max(b + f * (next - b), 0.0), cause);
+        go(f * ds, out.done ? met : next, cause);
     }
   }
   out.s = maker.s;
