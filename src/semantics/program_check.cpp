@@ -442,7 +442,8 @@ void ProgramCheck::State::on(const canon::WorkRotation& c, const Command& comman
 }
 
 void ProgramCheck::State::on(const canon::Probe&, const Command& command) {
-  held.reset();  // a probe is moved with the spindle stopped
+  held.reset();                   // a probe is moved with the spindle stopped
+  if (context.simulated) return;  // there is a model that it may touch
   tell_unknown("not_checked", command.span,
                "this probing move has nothing to touch here: it was taken to its end without "
                "contact, and what follows was looked at for that only",

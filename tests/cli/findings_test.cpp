@@ -70,6 +70,18 @@ TEST_P(Findings, AreRaisedByTheirProgramAndNotByTheOneThatJustDoesNot) {
   EXPECT_TRUE(aircut("explain " + kind).code == 0);
 }
 
+using Probing = Program;
+
+TEST_F(Probing, OfADescribedBlockIsKnownToAllChecks) {
+  const std::string job = " -m mill3 -t tests/data/findings/tools.toml";
+  const std::string block = " --setup tests/data/findings/block.setup.toml";
+  const std::string clean = "tests/data/findings/probe_missed.clean.ngc";
+  const Outcome met = aircut("run " + clean + job + block);
+  EXPECT_EQ(met.code, 0) << met.out << met.err;
+  // Where nothing moves nobody knows.
+  EXPECT_EQ(aircut("check " + clean + job).code, 2);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Findings, ::testing::ValuesIn(samples),
                          [](const auto& one) { return std::string(one.param.kind); });
 
