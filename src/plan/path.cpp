@@ -283,6 +283,27 @@ machine::TipInterval bounds(const Path& path, double s0, double s1) {
                     path);
 }
 
+TimeUse time_use(const Segment& segment) {
+  if (segment.spindle_from) return TimeUse::spindle_wait;
+  switch (segment.kind) {
+    case MotionKind::rapid:
+      return TimeUse::rapid;
+    case MotionKind::sync:
+      return std::holds_alternative<Hold>(segment.path) ? TimeUse::spindle_wait : TimeUse::feed;
+    case MotionKind::feed:
+    case MotionKind::arc:
+    case MotionKind::blend:
+    case MotionKind::probe:
+      return TimeUse::feed;
+    case MotionKind::tool_change:
+      return TimeUse::tool_change;
+    case MotionKind::idle:
+    case MotionKind::dwell:
+      break;
+  }
+  return TimeUse::rest;
+}
+
 std::string_view to_string(MotionKind kind) {
   switch (kind) {
     case MotionKind::idle:

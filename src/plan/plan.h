@@ -217,6 +217,11 @@ struct Segment {
   double t_end() const { return t_start + duration(); }
 };
 
+/// What a segment's time is spent on; waits for the spindle's speed or index are a kind of their
+/// own.
+enum class TimeUse : unsigned char { rapid, feed, tool_change, spindle_wait, rest };
+TimeUse time_use(const Segment& segment);
+
 inline const machine::Kinematics& kinematics_of(const Segment& segment,
                                                 const machine::Kinematics& usual) {
   return segment.kinematics ? *segment.kinematics : usual;

@@ -41,24 +41,10 @@ void Operations::on_step(const sim::Step& step) {
   Operation& operation = current(step);
   operation.time += time;
   operation.tool = change ? change->number : segment.tool;
-  switch (segment.kind) {
-    case plan::MotionKind::rapid:
-      operation.rapid += time;
-      break;
-    case plan::MotionKind::tool_change:
-      operation.tool_change += time;
-      break;
-    case plan::MotionKind::feed:
-    case plan::MotionKind::arc:
-    case plan::MotionKind::blend:
-    case plan::MotionKind::probe:
-    case plan::MotionKind::sync:
-      operation.feed += time;
-      break;
-    case plan::MotionKind::idle:
-    case plan::MotionKind::dwell:
-      break;
-  }
+  const plan::TimeUse use = plan::time_use(segment);
+  if (use == plan::TimeUse::rapid) operation.rapid += time;
+  if (use == plan::TimeUse::feed) operation.feed += time;
+  if (use == plan::TimeUse::tool_change) operation.tool_change += time;
 }
 
 }  // namespace aircut::report

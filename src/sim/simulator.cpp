@@ -250,28 +250,20 @@ void Simulator::count(const plan::Segment& segment) {
   summary_.cycle_time = std::max(summary_.cycle_time, segment.t_end());
   if (canon::is_motion(segment.command.action)) ++summary_.moves;
   if (segment.kind == plan::MotionKind::blend) summary_.blend_time += time;
-  const bool index =
-      segment.kind == plan::MotionKind::sync && std::holds_alternative<plan::Hold>(segment.path);
-  if (segment.spindle_from || index) {
-    summary_.spindle_wait_time += time;
-    return;
-  }
-  switch (segment.kind) {
-    case plan::MotionKind::rapid:
+  switch (plan::time_use(segment)) {
+    case plan::TimeUse::rapid:
       summary_.rapid_time += time;
       break;
-    case plan::MotionKind::feed:
-    case plan::MotionKind::arc:
-    case plan::MotionKind::blend:
-    case plan::MotionKind::probe:
-    case plan::MotionKind::sync:
+    case plan::TimeUse::feed:
       summary_.feed_time += time;
       break;
-    case plan::MotionKind::tool_change:
+    case plan::TimeUse::tool_change:
       summary_.tool_change_time += time;
       break;
-    case plan::MotionKind::idle:
-    case plan::MotionKind::dwell:
+    case plan::TimeUse::spindle_wait:
+      summary_.spindle_wait_time += time;
+      break;
+    case plan::TimeUse::rest:
       summary_.dwell_time += time;
       break;
   }
