@@ -63,7 +63,8 @@ struct BasicModel {
 ///   template <class T> std::array<T, joints + passives + guards>
 ///       solve(const PoseWords<T>& tip, const Vec3& tool, branch) const
 ///   tl::expected<AxisValues, ReachError> forward(const JointVector&, const Vec3& tool) const
-/// and may have why_not() and solve<double>() in one, which needs to give the joints alone:
+/// and beside why_not() or in its place it may have that and solve<double>() in one, which needs to
+/// give the joints alone:
 ///   std::optional<std::string> solve_checked(const PoseWords<double>& tip, const Vec3& tool,
 ///                                            branch, std::array<double, …>& q) const
 template <class Model>
@@ -130,8 +131,7 @@ class ModelKinematics final : public Kinematics {
              const AxisValues& dd_tip, JointVector& dq, JointVector& ddq) const override {
     const Vec3 tool = tool_of(target.tool_offset);
     const auto branch = model_.branch_of(joints);
-    if (model_.wrong_offset(target.tool_offset) ||
-        model_.why_not(words_of(target.tip), tool, branch))
+    if (model_.wrong_offset(target.tool_offset) || why_not(words_of(target.tip), tool, branch))
       return false;
     PoseWords<Jet> pose;
     for (std::size_t i = 0; i < pose.size(); ++i)
@@ -191,6 +191,17 @@ class ModelKinematics final : public Kinematics {
       auto error = model_.why_not(pose, tool, branch);
       if (!error) q = model_.template solve<double>(pose, tool, branch);
       return error;
+    }
+  }
+
+  template <class Branch>
+  std::optional<std::string> why_not(const PoseWords<double>& pose, const Vec3& tool,
+                                     const Branch& branch) const {
+    if constexpr (requires { model_.why_not(pose, tool, branch); }) {
+      return model_.why_not(pose, tool, branch);
+    } else {
+      Solved q;
+      return model_.solve_checked(pose, tool, branch, q);
     }
   }
 

@@ -92,12 +92,6 @@ struct Pentapod : BasicModel {
     }
   }
 
-  std::optional<std::string> why_not(const PoseWords<double>& tip, const Vec3& tool,
-                                     int branch) const {
-    std::array<double, joints + passives> q;
-    return solve_checked(tip, tool, branch, q);
-  }
-
   std::optional<std::string> solve_checked(const PoseWords<double>& tip, const Vec3& tool, int,
                                            std::array<double, joints + passives>& out) const {
     Matrix5 J;
@@ -154,7 +148,9 @@ struct Pentapod : BasicModel {
     PoseWords<double> tip = from;
     if (!newton(q, tip, Vec3::Zero()) && !in_parts(q, from, tip))
       return unexpected(ReachError{"the struts don't meet at the spindle"});
-    if (auto error = why_not(tip, Vec3::Zero(), 0)) return unexpected(ReachError{*error});
+    std::array<double, joints + passives> back;
+    if (auto error = solve_checked(tip, Vec3::Zero(), 0, back))
+      return unexpected(ReachError{*error});
     AxisValues out;
     for (std::size_t i = 0; i < 5; ++i) out[all_axes[i]] = tip[i];
     const Vec3 k = *tool_axis(out) * tool.z();

@@ -113,12 +113,6 @@ struct Rods6 : BasicModel {
     return q;
   }
 
-  std::optional<std::string> why_not(const PoseWords<double>& tip, const Vec3& tool,
-                                     int branch) const {
-    std::array<double, joints + passives> q;
-    return solve_checked(tip, tool, branch, q);
-  }
-
   std::optional<std::string> solve_checked(const PoseWords<double>& tip, const Vec3& tool, int,
                                            std::array<double, joints + passives>& out) const {
     const auto R = Rotation<double>::about_fixed(tip[3], tip[4], tip[5]);
