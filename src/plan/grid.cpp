@@ -396,6 +396,13 @@ Grid grid_behind(const Grid& grid, double s) {
   if (!grid.uniform)
     out.rows.insert(out.rows.end(), grid.alpha(next), grid.rows.data() + grid.rows.size());
   for (GridNode& node : out.at) node.s -= s;
+  // Between two rests a motion needs a place where it moves.
+  if (!grid.uniform && out.nodes() == 2) {
+    std::vector<double> rows;
+    const GridNode middle = node_at(out, 0, out.length() / 2, rows);
+    out.at.insert(out.at.begin() + 1, middle);
+    out.rows.insert(out.rows.begin() + 2 * out.joints, rows.begin(), rows.end());
+  }
   return out;
 }
 

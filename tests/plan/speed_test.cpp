@@ -110,6 +110,36 @@ TEST(Descent, OfAHeldMotionThatHardlyMovesRestsAtOnce) {
   }
 }
 
+TEST(Descent, ThatEndsAtRestAHairBeforeANodeHasAnEnd) {
+  const Grid grid = with_nodes(1, 50, 1000, 2);
+  const Controllable held(grid.nodes(), 0.0);
+  for (const double hair : {1e-12, 1e-13, 1e-14}) {
+    const Descent descent = descend(grid, held, 1000 * (1 - hair));
+    EXPECT_TRUE(descent.done);
+    EXPECT_EQ(descent.ride.b_end, 0) << hair;
+    EXPECT_NEAR(descent.s, 0.5, 1e-9);
+    EXPECT_NEAR(descent.ride.profile.duration(), std::sqrt(1000.0) / 1000, 1e-9);
+  }
+}
+
+TEST(Descent, EndsWithTheVerySpeedThatIsAskedFor) {
+  const Grid grid = with_nodes(1, 50, 1000, 7);
+  for (const double wanted : {0.0, 3.7, 25.1})
+    for (double b = wanted + 1; b < wanted + 1900; b *= 1.07) {
+      const Descent descent = descend(grid, Controllable(grid.nodes(), wanted), b);
+      EXPECT_TRUE(descent.done);
+      EXPECT_EQ(descent.ride.b_end, wanted) << b;
+    }
+}
+
+TEST(Ride, OverTheRestOfAPieceThatWasHeldInItsLastIntervalEnds) {
+  const Grid rest = grid_behind(with_nodes(1, 50, 1000, 4), 0.9);
+  Controllable controllable;
+  brake(rest, 0, controllable);
+  const Ride ride = accelerate(rest, controllable, 0);
+  EXPECT_NEAR(ride.profile.duration(), 2 * std::sqrt(0.1 / 1000), 1e-9);
+}
+
 TEST(Polar, CentreIsPassedAsSlowlyAsTheAngleNeeds) {
   for (const auto& c : vectors("planner-polar-singularity.json")) {
     const double offset = c["offset_mm"], half = c["half_length_mm"];
