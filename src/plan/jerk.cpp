@@ -189,7 +189,7 @@ bool JerkStage::keep_limits(NodePlan& plan, WindowLaw& law) {
     if (excess.empty()) return true;
     if (round == most_repairs) return false;
     Trim trim = plan.trim;
-    trim_around(excess, window_, law, round >= first_slower_repair, trim);
+    trim_around(excess, window_, plan, law, round >= first_slower_repair, trim);
     const NodePlan before = std::move(plan);
     plan = solve_on(window_, before.x, &before, std::move(trim));
     if (plan.good) law = law_of_plan(plan);

@@ -19,18 +19,20 @@ struct WayItem {
   double end() const { return begin + stretch * grid.length(); }
 };
 
-/// A time of a law at which more than a joint's limit is seen.
+/// A time of a law at which more than a joint's limit is seen, or more than the feed.
 struct Excess {
   double t = 0;
-  double share = 0;  ///< of the limit
+  double share = 0;    ///< of the limit
+  double allowed = 0;  ///< of the feed: the path speed that keeps it; 0: of a joint's limit
 };
 
 /// Jerks as differences over the period see them, wherever the samples fall; from the rates at the
 /// stations, so only nearly.
 std::vector<Excess> jerk_excess(const JerkWindow& window, const WindowLaw& law);
-/// Nodes near an excess get less of the jerk limit, and of the speed too if `slower`.
-void trim_around(const std::vector<Excess>& excess, const JerkWindow& window, const WindowLaw& law,
-                 bool slower, Trim& trim);
+/// Nodes near an excess get less of the jerk limit, and of the speed too if `slower`; those around
+/// an excess of the feed the feed's speed.
+void trim_around(const std::vector<Excess>& excess, const JerkWindow& window, const NodePlan& plan,
+                 const WindowLaw& law, bool slower, Trim& trim);
 
 /// The samples of the log, computed as the log does it.
 class LogSamples {
@@ -49,8 +51,8 @@ class LogSamples {
     const std::vector<LawKnot>& law;
     double clock = 0, cut = 0;
   };
-  /// Where differences of the samples pass a limit of acceleration or jerk, from the law's begin up
-  /// to its time `until`. The machine stands behind the end.
+  /// Where differences of the samples pass a limit of acceleration or jerk, or the feed, from the
+  /// law's begin up to its time `until`. The machine stands behind the end.
   std::vector<Excess> excess(const Ride& ride, double until) const;
 
  private:
@@ -58,8 +60,11 @@ class LogSamples {
   struct Sample {
     double number;
     machine::JointVector q;
+    AxisValues tip;
+    double feed = 0;  ///< commanded; 0: none counts
   };
-  machine::JointVector before(double number) const;
+  const Sample& before(double number) const;
+  static double feed_share(const Sample& from, const Sample& to, double period);
 
   const machine::Kinematics& kinematics_;
   const JointLimits& limits_;

@@ -146,6 +146,7 @@ NodePlan solve_on(const JerkWindow& w, std::vector<double> x, const NodePlan* be
     if (plan.b[k] > 0.98 * problem.cap[k] && plan.b[k + 1] > 0.98 * problem.cap[k + 1])
       plan.cause[k] = {LimitedBy::feed, -1};  // or what limited the second-order profile: see cut()
   }
+  plan.cap = std::move(problem.cap);
   return plan;
 }
 

@@ -47,7 +47,8 @@ struct JerkWindow {
 struct NodePlan {
   std::vector<double> x, b;
   Trim trim;
-  std::vector<double> q;  ///< joint accelerations by cell, joint after joint
+  std::vector<double> cap;  ///< of b, with the trim
+  std::vector<double> q;    ///< joint accelerations by cell, joint after joint
   std::vector<Cause> cause;
   bool good = false;
 };

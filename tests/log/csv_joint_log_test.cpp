@@ -161,6 +161,23 @@ TEST(JointLog, KeepsJerkLimitsOfAnySize) {
   }
 }
 
+TEST(JointLog, KeepsAMuchLowerFeedFromItsBeginOn) {
+  // Lengths of which the lower feed begins in the middle of a cell of the jerk stage.
+  struct Slow {
+    double way, feed, jerk;
+  };
+  for (const Slow& c : {Slow{3.12121, 0.3, 70000}, {3.06417, 1, 200000}, {3.34937, 3, 200000}}) {
+    const auto machine = identity_machine("X", {{100, 3500, c.jerk}});
+    Program program;
+    program.exact_path().feed(90).line(xyz(c.way, 0, 0)).feed(c.feed).line(xyz(c.way + 0.1, 0, 0));
+    const Planned planned = plan_program(*machine, zeros(*machine), program);
+    const JointLog log = read_log(run_to_log(machine, zeros(*machine), planned));
+    EXPECT_LE(worst_feed(log).share, 1.001) << worst_feed(log).where << ", way " << c.way;
+    EXPECT_LE(worst_jerk(log).share, 1.001) << worst_jerk(log).where;
+    EXPECT_LT(planned.time(), c.way / 90 + 0.1 / c.feed + 0.1);
+  }
+}
+
 TEST(JointLog, KeepsLimitsWithTinyMovesAndTolerances) {
   const int programs = number_from("AIRCUT_TEST_PROGRAMS", 12);
   for (int i = 0; i < programs; ++i) {
