@@ -1,6 +1,7 @@
 #include "page/page.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -180,6 +181,39 @@ Json joints(Packer& packer, const Replay& replay) {
   return out;
 }
 
+// What the joints were asked for, in percent of their limits; rows without a limit are left out.
+Json rates(Packer& packer, const Replay& replay) {
+  static constexpr std::array<const char*, Rates::measures> names = {"speed", "acceleration",
+                                                                     "jerk"};
+  const auto& peaks = replay.rates().peaks();
+  Json out = {{"width", peaks.width()}, {"count", peaks.values().size()}};
+  for (std::size_t m = 0; m < names.size(); ++m) {
+    Json rows = Json::array();
+    for (int j = 0; j < replay.machine().joint_count(); ++j) {
+      const machine::Joint& joint = replay.machine().joint(machine::JointId{j});
+      const double limit = std::array{joint.vmax, joint.amax, joint.jmax}[m];
+      if (!(limit > 0) || !std::isfinite(limit)) continue;
+      const std::size_t at = static_cast<std::size_t>(j) * names.size() + m;
+      const auto share = [&](const Rates::Peaks& p) {
+        return at < p.of.size() ? static_cast<double>(p.of[at]) / limit * 100 : 0.;
+      };
+      rows.push_back({{"name", utf8(joint.name)},
+                      {"values", packer.numbers(column(peaks.values(), share), 0.1)}});
+    }
+    out[names[m]] = std::move(rows);
+  }
+  return out;
+}
+
+Json removal(Packer& packer, const std::optional<sim::Summary::Stock>& stock) {
+  if (!stock || stock->removed.values().empty()) return nullptr;
+  const double width = stock->removed.width();
+  const auto rate = [&](const sim::Volume& v) { return v.value / width * 0.06; };  // cm³/min
+  return {{"width", width},
+          {"count", stock->removed.values().size()},
+          {"values", packer.numbers(column(stock->removed.values(), rate), 0.01)}};
+}
+
 Json tools(const Replay& replay) {
   Json uses = Json::array();
   for (const auto& use : replay.tool_uses()) {
@@ -266,6 +300,8 @@ std::string page_html(const PageInput& input) {
       {"keys", keys(packer, replay)},
       {"blocks", blocks(packer, replay)},
       {"joints", joints(packer, replay)},
+      {"rates", rates(packer, replay)},
+      {"removal", removal(packer, input.report.summary.stock)},
       {"tools", tools(replay)},
       {"links", links(packer, replay)},
       {"bodies", bodies(packer, replay)},

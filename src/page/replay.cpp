@@ -92,6 +92,7 @@ void Replay::on_step(const sim::Step& step) {
     for (int i = 1; i <= pieces; ++i) {
       Key key;
       key.t = segment.t_start + from + span * i / pieces;
+      rates_.look(step, key.t - span / pieces, key.t);
       const auto state = step.motion.state_at(key.t);
       if (!state) continue;  // the run tells why
       key.joints = state->q;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "page/rates.h"
 #include "sim/sim.h"
 
 namespace aircut::page {
@@ -64,6 +65,7 @@ class Replay final : public sim::Observer {
   const std::vector<ToolTime>& tool_times() const { return tool_times_; }
   const std::vector<ToolUse>& tool_uses() const { return tool_uses_; }
   const std::vector<JointUse>& joint_uses() const { return joint_uses_; }
+  const Rates& rates() const { return rates_; }
   /// The bodies of a tool as they hang on the spindle's link.
   std::vector<machine::Body> tool_bodies(int number) const;
   /// How far a moment between two keys may be off, mm (rad · 100 mm).
@@ -91,6 +93,7 @@ class Replay final : public sim::Observer {
   std::vector<ToolTime> tool_times_;
   std::vector<ToolUse> tool_uses_;
   std::vector<JointUse> joint_uses_;
+  Rates rates_;
   std::vector<double> turn_at_;  ///< per joint: where its direction was last told
   std::vector<int> direction_;
 };

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/time_buckets.h"
 #include "collide/collide.h"
 #include "interp/interp.h"
 #include "machine/machine.h"
@@ -174,6 +175,12 @@ class Findings {
   std::map<Key, std::size_t> last_;  ///< index of the last row of each key
 };
 
+/// Of material, mm³.
+struct Volume {
+  double value = 0;
+  void merge(const Volume& other) { value += other.value; }
+};
+
 struct Summary {
   Verdict verdict = Verdict::unknown;
   double cycle_time = 0;  ///< s, planned
@@ -202,6 +209,7 @@ struct Summary {
     double sweep_bound = 0;                 ///< mm: straight pieces in place of the motion
     double initial_volume = 0, volume = 0;  ///< mm³, before and after
     std::size_t bytes = 0;                  ///< of the material in memory
+    TimeBuckets<Volume> removed;            ///< when it went
   };
   std::optional<Stock> stock;  ///< when there was one and all its cuts are known
 

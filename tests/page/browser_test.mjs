@@ -107,7 +107,13 @@ tests['opens, plays, steps by block and jumps to a finding'] = async browser => 
   assert.equal(await page.evaluate(() => document.documentElement.dataset.theme), 'dark');
   await page.click('#findings th button:has-text("line")');
   assert.equal(await page.getAttribute('#findings th[aria-sort]', 'aria-sort'), 'ascending');
-  assert.equal(await page.locator('#charts .uplot').count(), 2);
+  // Feed, linear joints, speeds, accelerations; the same over the lines, where a click seeks.
+  assert.equal(await page.locator('#charts .uplot').count(), 4);
+  await page.selectOption('#charts select', 'line');
+  assert.equal(await page.locator('#charts .uplot').count(), 4);
+  const over = page.locator('#charts .u-over').first();
+  await over.click({position: {x: (await over.boundingBox()).width - 2, y: 50}});
+  await page.waitForFunction(() => /line 23/.test(document.querySelector('.status').textContent));
   assert.deepEqual(page.problems, []);
 };
 
@@ -120,6 +126,7 @@ tests['shows the stock as it is cut'] = async browser => {
   await page.waitForTimeout(300);
   const cut = await pixels(page);
   assert.notEqual(cut.sum, whole.sum);
+  assert.match(await page.textContent('#charts'), /material removed/);
   assert.match(await page.textContent('#stock'), /removed [\d.]+ cm³/);
   await shot(page, 'stock');
   assert.deepEqual(page.problems, []);

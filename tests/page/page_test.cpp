@@ -119,6 +119,29 @@ TEST_F(ReplayOf, CountsWhatJointsAndToolsDid) {
   EXPECT_NEAR(use.feed_time + use.rapid_time, result.summary.cycle_time, 1e-6);
 }
 
+TEST_F(ReplayOf, KnowsHowNearTheJointsCameToTheirLimits) {
+  // The circle of 20 mm at 100 mm/s asks for v²/r = 500 mm/s² of X and Y at their largest speed of
+  // 100 mm/s; the way to it brakes with the machine's 5000 mm/s², at 500 mm/s at most.
+  run("G21 G90 G61 F6000\nG0 X180\nG0 X20\nG1 X20\nG3 X20 Y0 I-20 J0\nG3 X20 Y0 I-20 J0\nM2\n");
+  const auto& peaks = replay->rates().peaks();
+  const auto between = [&](double t0, double t1, int joint, Rates::Measure measure) {
+    float most = 0;
+    for (auto i = static_cast<std::size_t>(t0 / peaks.width());
+         i <= static_cast<std::size_t>(t1 / peaks.width()) && i < peaks.values().size(); ++i)
+      if (const auto& of = peaks.values()[i].of; !of.empty())
+        most = std::max(most, of[static_cast<std::size_t>(joint * Rates::measures + measure)]);
+    return most;
+  };
+  const double end = result.summary.cycle_time, turn = 40 * M_PI / 100;
+  EXPECT_NEAR(between(0, end - 2 * turn - 0.2, 0, Rates::speed), 500, 1);
+  EXPECT_NEAR(between(0, end - 2 * turn - 0.2, 0, Rates::acceleration), 5000, 5);
+  EXPECT_EQ(between(0, end - 2 * turn - 0.2, 2, Rates::speed), 0);
+  for (const int joint : {0, 1}) {
+    EXPECT_NEAR(between(end - 0.95 * turn, end - 0.05 * turn, joint, Rates::speed), 100, 0.5);
+    EXPECT_NEAR(between(end - 0.95 * turn, end - 0.05 * turn, joint, Rates::acceleration), 500, 2);
+  }
+}
+
 std::size_t count(const std::string& text, std::string_view what) {
   std::size_t n = 0;
   for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;

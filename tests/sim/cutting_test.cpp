@@ -69,6 +69,25 @@ TEST_F(Cutting, TakesASlotOfItsExactVolume) {
               0.5 * h * area);
 }
 
+TEST_F(Cutting, KnowsWhenTheMaterialWent) {
+  // A slot of 60 x 10 x 5 on the way of 90 mm at 1000 mm/min, then rapids that take nothing.
+  const RunResult r = run("G0 Z-85\nG1 X40\nG0 Z-70\nG0 X-50\n");
+  ASSERT_TRUE(r.summary.stock);
+  const auto& removed = r.summary.stock->removed;
+  double sum = 0, most = 0, begin = -1, end = 0;
+  for (std::size_t i = 0; i < removed.values().size(); ++i) {
+    const double here = removed.values()[i].value;
+    if (here > 0 && begin < 0) begin = static_cast<double>(i) * removed.width();
+    if (here > 0) end = static_cast<double>(i + 1) * removed.width();
+    sum += here;
+    most = std::max(most, here / removed.width());
+  }
+  EXPECT_NEAR(sum, r.summary.stock->initial_volume - r.summary.stock->volume, 1e-6 * sum);
+  EXPECT_NEAR(end - begin, 5.4, 0.05);
+  EXPECT_NEAR(most, sum / 5.4, 0.01 * most);
+  EXPECT_LT(end, r.summary.cycle_time - 0.1);
+}
+
 TEST_F(Cutting, FindsARapidThroughStock) {
   const RunResult r = run("G0 Z-85\nG0 X40\n");
   const Finding& f = r.only(Kind::rapid_cut);

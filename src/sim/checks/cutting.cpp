@@ -202,7 +202,8 @@ void CuttingCheck::hold(const Step& step, const Solid& cutter, const StraightMov
     engagement_.look(step, move, *in, cutter.name);
   }
   batch_.push_back(piece(cutter, move));
-  batch_times_.push_back(time_at(step, move.s1));
+  batch_.back().move = static_cast<std::uint32_t>(batch_times_.size());
+  batch_times_.push_back({time_at(step, move.s0), time_at(step, move.s1)});
   loose_.add(step, batch_.back());
   if (batch_.size() >= batch_size) flush();
 }
@@ -211,13 +212,19 @@ void CuttingCheck::flush() {
   if (batch_.empty()) return;
   const auto cut = stock_->cut(batch_);
   if (!cut) return give_up(cut.error().message);
-  for (const stock::Removal& removal : *cut) removed_ += removal.quanta;
+  for (const stock::Removal& removal : *cut) {
+    removed_ += removal.quanta;
+    const auto [from, to] = batch_times_[removal.move];
+    if (removal.volume > 0)
+      removed_when_.over(from, to,
+                         [&](Volume& v, double share) { v.value += removal.volume * share; });
+  }
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     stock::Piece piece = batch_[i];
     const stock::CutterProfile*& kept = taped_[piece.cutter];
     if (!kept) kept = tape_->keep(*piece.cutter);
     piece.cutter = kept;
-    if (auto added = tape_->add(piece, batch_times_[i]); !added)
+    if (auto added = tape_->add(piece, batch_times_[i][1]); !added)
       return give_up(added.error().message);
   }
   batch_.clear();
@@ -435,7 +442,8 @@ void CuttingCheck::finish(Summary& summary, Findings& out) {
   s.initial_volume = initial_volume_;
   s.volume = initial_volume_ - stock_->volume_of(removed_);
   s.bytes = stock_->bytes();
-  summary.stock = s;
+  s.removed = std::move(removed_when_);
+  summary.stock = std::move(s);
 }
 
 }  // namespace aircut::sim

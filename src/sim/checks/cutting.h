@@ -104,10 +104,11 @@ class CuttingCheck final : public Check {
   std::vector<const Solid*> doubtful_;  ///< of others_: not clear of the stock over the whole step
   std::vector<StraightMove> moves_;     ///< of the step at hand
   CutRows rows_;
-  std::vector<stock::Piece> batch_;  ///< waiting to be cut
-  std::vector<double> batch_times_;  ///< program time at the end of each
-  std::string given_up_;             ///< why nothing more is known of the stock; empty: it is known
-  std::string no_part_;              ///< why the result can't be compared with the part
+  std::vector<stock::Piece> batch_;                 ///< waiting to be cut
+  std::vector<std::array<double, 2>> batch_times_;  ///< program times of each, from and to
+  TimeBuckets<Volume> removed_when_;
+  std::string given_up_;  ///< why nothing more is known of the stock; empty: it is known
+  std::string no_part_;   ///< why the result can't be compared with the part
   bool told_ = false;
   bool touching_ = false;  ///< the probe, since its last probing move
   std::shared_ptr<const collide::CollisionMesh> surface_;

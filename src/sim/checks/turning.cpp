@@ -312,6 +312,9 @@ double TurningCheck::cut(const Step& step, const Solid& solid, const StraightMov
     if (taken > 0 && tape_ && !tape_->add(here, time_at(step, move.s1)))
       give_up(disk_error("can't write a temporary file").message);
   }
+  if (volume > 0)
+    removed_when_.over(time_at(step, move.s0), time_at(step, move.s1),
+                       [&](Volume& v, double share) { v.value += volume * share; });
   return volume;
 }
 
@@ -436,7 +439,8 @@ void TurningCheck::finish(Summary& summary, Findings& out) {
   s.initial_volume = initial_volume_;
   s.volume = stock_->volume();
   s.bytes = stock_->bytes();
-  summary.stock = s;
+  s.removed = std::move(removed_when_);
+  summary.stock = std::move(s);
   compare_with_part(summary, out);
 }
 

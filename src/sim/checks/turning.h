@@ -76,9 +76,10 @@ class TurningCheck final : public Check {
   std::optional<PartWatch> watch_;
   std::string no_part_;  ///< why the result can't be compared with the part
   std::shared_ptr<const machine::Machine> machine_;
-  JointVector joints_;                                  ///< at the end of the last step
-  double t_end_ = 0;                                    ///< of it, s
-  double initial_volume_ = 0, tolerance_ = 0;           ///< mm³, mm
+  JointVector joints_;                         ///< at the end of the last step
+  double t_end_ = 0;                           ///< of it, s
+  double initial_volume_ = 0, tolerance_ = 0;  ///< mm³, mm
+  TimeBuckets<Volume> removed_when_;
   Vec3 across_ = Vec3::UnitX(), side_ = Vec3::UnitY();  ///< of the half plane; seen from S
   std::vector<Solid> cutters_, others_;
   Vec3 tip_ = Vec3::Zero();  ///< of the sections' origin, seen from the tip of the moves; S
