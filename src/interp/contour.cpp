@@ -126,19 +126,21 @@ bool contains(const ContourPiece& p, PlanePoint q) {
   return along >= -tiny && along <= length + tiny;
 }
 
-void line_circle(const ContourPiece& line, PlanePoint centre, double r,
+// `slack`: by how much r² may be missed, for each mm of r, and the foot still counts.
+void line_circle(const ContourPiece& line, PlanePoint centre, double r, double slack,
                  std::vector<PlanePoint>& out) {
   const PlanePoint d = direction(line, line.start);
   const double along = (centre.u - line.start.u) * d.u + (centre.v - line.start.v) * d.v;
   const PlanePoint foot{line.start.u + along * d.u, line.start.v + along * d.v};
   const double h2 = r * r - std::pow(distance(foot, centre), 2);
-  if (h2 < -1e-7 * std::max(r, 1.0)) return;
+  if (h2 < -slack * std::max(r, 1.0)) return;
   const double half = std::sqrt(std::max(0.0, h2));
   out.push_back({foot.u - half * d.u, foot.v - half * d.v});
   out.push_back({foot.u + half * d.u, foot.v + half * d.v});
 }
 
-std::vector<PlanePoint> meetings(const ContourPiece& a, const ContourPiece& b) {
+// Where the lines and circles that carry the pieces meet.
+std::vector<PlanePoint> carriers_meet(const ContourPiece& a, const ContourPiece& b, double slack) {
   std::vector<PlanePoint> points;
   if (a.turn == 0 && b.turn == 0) {
     const PlanePoint da = direction(a, a.start), db = direction(b, b.start);
@@ -150,13 +152,13 @@ std::vector<PlanePoint> meetings(const ContourPiece& a, const ContourPiece& b) {
   } else if (a.turn == 0 || b.turn == 0) {
     const ContourPiece& line = a.turn == 0 ? a : b;
     const ContourPiece& arc = a.turn == 0 ? b : a;
-    line_circle(line, arc.centre, radius_of(arc), points);
+    line_circle(line, arc.centre, radius_of(arc), slack, points);
   } else {
     const double ra = radius_of(a), rb = radius_of(b), d = distance(a.centre, b.centre);
     if (d > tiny) {
       const double along = (d * d + ra * ra - rb * rb) / (2 * d);
       const double h2 = ra * ra - along * along;
-      if (h2 > -1e-7 * std::max(ra, 1.0)) {
+      if (h2 > -slack * std::max(ra, 1.0)) {
         const double half = std::sqrt(std::max(0.0, h2));
         const double cu = (b.centre.u - a.centre.u) / d, cv = (b.centre.v - a.centre.v) / d;
         const PlanePoint foot{a.centre.u + along * cu, a.centre.v + along * cv};
@@ -165,8 +167,31 @@ std::vector<PlanePoint> meetings(const ContourPiece& a, const ContourPiece& b) {
       }
     }
   }
+  return points;
+}
+
+std::vector<PlanePoint> meetings(const ContourPiece& a, const ContourPiece& b) {
+  std::vector<PlanePoint> points = carriers_meet(a, b, 1e-7);
   std::erase_if(points, [&](PlanePoint q) { return !contains(a, q) || !contains(b, q); });
   return points;
+}
+
+// Lets two moved pieces with a gap or overlap between them that is narrow along u end and begin
+// where their carriers meet. False when these meet nowhere near.
+bool join(ContourPiece& a, ContourPiece& b, double narrow) {
+  const double gap = distance(a.end, b.start);
+  if (gap < tiny || std::fabs(a.end.u - b.start.u) >= narrow) return false;
+  const PlanePoint middle{(a.end.u + b.start.u) / 2, (a.end.v + b.start.v) / 2};
+  PlanePoint best = middle;
+  double nearest = gap + narrow;
+  for (const PlanePoint q : carriers_meet(a, b, 2 * narrow)) {
+    if (distance(q, middle) >= nearest) continue;
+    nearest = distance(q, middle);
+    best = q;
+  }
+  if (nearest >= gap + narrow) return false;
+  a.end = b.start = best;
+  return true;
 }
 
 // How far along the piece a point of it lies, for sorting.
@@ -185,25 +210,33 @@ double length_of(const ContourPiece& p) {
   return p.turn == 0 ? distance(p.start, p.end) : sweep_of(p) * radius_of(p);
 }
 
+// The arc round the convex corner between two moved pieces, nothing at a concave one.
+std::optional<ContourPiece> round_corner(const ContourPiece& piece, const ContourPiece& next,
+                                         double d) {
+  const PlanePoint in = direction(piece, piece.end), out = direction(next, next.start);
+  // Seen from the side of the offset, the way turns away from it at a convex corner.
+  if ((in.u * out.v - in.v * out.u) * d <= 1e-9 * std::fabs(d)) return std::nullopt;
+  ContourPiece round;
+  round.start = beside(piece, piece.end, d);
+  round.end = beside(next, next.start, d);
+  round.centre = piece.end;
+  round.turn = d > 0 ? 1 : -1;
+  round.feed = piece.feed;
+  if (distance(round.start, round.end) <= tiny) return std::nullopt;
+  return round;
+}
+
 // The pieces beside the contour with arcs round its corners, not yet cut.
-Contour raw_offset(const Contour& contour, double d) {
+Contour raw_offset(const Contour& contour, double d, double narrow) {
   Contour raw;
+  bool whole = false;  // the piece before this one is there
   for (std::size_t i = 0; i < contour.size(); ++i) {
-    const ContourPiece& piece = contour[i];
-    if (const auto beside_it = moved_beside(piece, d)) raw.push_back(*beside_it);
-    if (i + 1 == contour.size()) break;
-    const PlanePoint in = direction(piece, piece.end);
-    const PlanePoint out = direction(contour[i + 1], contour[i + 1].start);
-    // Seen from the side of the offset, the way turns away from it at a convex corner.
-    const double turn = in.u * out.v - in.v * out.u;
-    if (turn * d <= 1e-9 * std::fabs(d)) continue;
-    ContourPiece round;
-    round.start = beside(piece, piece.end, d);
-    round.end = beside(contour[i + 1], contour[i + 1].start, d);
-    round.centre = piece.end;
-    round.turn = d > 0 ? 1 : -1;
-    round.feed = piece.feed;
-    if (distance(round.start, round.end) > tiny) raw.push_back(round);
+    std::optional<ContourPiece> moved = moved_beside(contour[i], d);
+    const bool joined = whole && moved && join(raw.back(), *moved, narrow);
+    if (i > 0 && !joined)
+      if (const auto round = round_corner(contour[i - 1], contour[i], d)) raw.push_back(*round);
+    whole = moved.has_value();
+    if (moved) raw.push_back(*moved);
   }
   return raw;
 }
@@ -279,9 +312,9 @@ Contour shifted(Contour contour, double du, double dv) {
   return contour;
 }
 
-Contour offset(const Contour& contour, double d) {
+Contour offset(const Contour& contour, double d, double narrow) {
   if (d == 0) return contour;
-  const Contour raw = raw_offset(contour, d);
+  const Contour raw = raw_offset(contour, d, narrow);
   Contour kept;
   std::size_t last_of = raw.size();  // the raw piece that the last kept part is of
   for (std::size_t i = 0; i < raw.size(); ++i) {

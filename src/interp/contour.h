@@ -52,9 +52,10 @@ std::vector<double> crossings(const ContourPiece& piece, double v);
 /// The nearest crossing of the contour from piece `first` on with u below `u`.
 std::optional<double> next_crossing(const Contour& contour, std::size_t first, double u, double v);
 
-/// The curve at `distance` towards the stock (negative: away from it), convex corners rounded.
-/// Empty when nothing is left of it.
-Contour offset(const Contour& contour, double distance);
+/// The curve at `distance` towards the stock (negative: away from it), convex corners rounded;
+/// those whose arc would be shorter than `narrow` along u are left sharp. Empty when nothing is
+/// left of it.
+Contour offset(const Contour& contour, double distance, double narrow = 0);
 /// Moved by (du, dv).
 Contour shifted(Contour contour, double du, double dv);
 

@@ -16,6 +16,9 @@ namespace {
 
 constexpr double band = 1e-7;  // mm, levels that close are the same
 
+bool falls(const ContourPiece& part) { return part.end.v < part.start.v - band; }
+double distance(PlanePoint a, PlanePoint b) { return std::hypot(a.u - b.u, a.v - b.v); }
+
 class Rougher {
  public:
   Rougher(const Contour& contour, const Roughing& options, std::size_t max_moves)
@@ -54,7 +57,7 @@ void Rougher::go(bool fast, PlanePoint end, const char* what) {
 void Rougher::along(const ContourPiece& piece, PlanePoint end, bool fast, const char* what) {
   if (piece.turn == 0) return go(fast, end, what);
   // An arc to where it starts would be a full circle.
-  if (std::hypot(end.u - at_.u, end.v - at_.v) < band) return;
+  if (distance(end, at_) < band) return;
   CutterMove move;
   move.end = end;
   move.centre = piece.centre;
@@ -98,18 +101,18 @@ void Rougher::follow(std::size_t at) {
   const char* what = approach ? "approach" : "along the contour";
   Contour rest = split_at_v_extremes({contour_[at]});
   while (!rest.empty()) {
-    const bool falls = rest.front().end.v < rest.front().start.v - band;
+    const bool dives = falls(rest.front());
     // Pockets alone: the way down to the contour is not cut, and the first pocket's mouth is the
     // first level.
-    const bool skip = falls && options_.pockets == Roughing::Pockets::only && !climbed_;
-    if (falls && !skip) {
+    const bool skip = dives && options_.pockets == Roughing::Pockets::only && !climbed_;
+    if (dives && !skip) {
       if (first_pocket_) level_ = at_.v;
       first_pocket_ = false;
       dive(at, rest, approach);
     }
-    const bool climbs_out = falls && rest.size() > 1;  // the rest of an arc in one move
+    const bool climbs_out = dives && rest.size() > 1;  // the rest of an arc in one move
     if (climbs_out) rest.erase(rest.begin());
-    along(rest.front(), rest.front().end, falls && approach, what);
+    along(rest.front(), rest.front().end, dives && approach, what);
     rest.erase(rest.begin());
   }
 }
@@ -117,7 +120,7 @@ void Rougher::follow(std::size_t at) {
 // A dive is left out: the next piece is met where it comes up to the level again.
 void Rougher::follow_without_pockets(std::size_t at) {
   for (ContourPiece part : split_at_v_extremes({contour_[at]})) {
-    if (part.end.v < at_.v - band || part.end.v < part.start.v - band) continue;
+    if (part.end.v < at_.v - band || falls(part)) continue;
     if (part.start.v < at_.v - band) {
       const auto up = crossings(part, at_.v);
       if (up.empty()) continue;

@@ -115,5 +115,38 @@ TEST(Offset, KeepsItsDistance) {
   }
 }
 
+// Two lines, the second one turned by `angle` outwards, in front of a stock at larger v.
+Contour bent(double angle) {
+  Contour contour(2);
+  contour[0].start = {0, 0};
+  contour[0].end = contour[1].start = {-10, 0};
+  contour[1].end = {-10 - 10 * std::cos(angle), -10 * std::sin(angle)};
+  return contour;
+}
+
+TEST(Offset, LeavesNarrowCornersSharp) {
+  constexpr double d = 2, narrow = 0.01;
+  const Contour sharp = offset(bent(0.004), d, narrow);
+  ASSERT_EQ(sharp.size(), 2);
+  // The bisector of the corner: prolonged by d tan(angle / 2).
+  EXPECT_NEAR(sharp[0].end.u, -10 - d * std::tan(0.002), 1e-9);
+  EXPECT_NEAR(sharp[0].end.v, d, 1e-9);
+  const Contour round = offset(bent(0.006), d, narrow);
+  ASSERT_EQ(round.size(), 3);
+  EXPECT_NE(round[1].turn, 0);
+}
+
+// Its end stays off the arc by so little that the line behind it passes the circle: the nearest
+// point of the line then is the corner.
+TEST(Offset, JoinsALineThatOnlyJustMissesTheArc) {
+  Contour contour(2);
+  contour[0] = {.start = {0, -3}, .end = {-2.1215, -2.1215}, .centre = {0, 0}, .turn = -1};
+  contour[1] = {.start = {-2.1215, -2.1215}, .end = {-4.1215, -0.1215}, .centre = {}};
+  const Contour joined = offset(contour, -1, 0.01);
+  ASSERT_EQ(joined.size(), 2);
+  EXPECT_NEAR(joined[0].end.u, joined[0].end.v, 1e-4);
+  EXPECT_NEAR(std::hypot(joined[0].end.u, joined[0].end.v), 4, 1e-3);
+}
+
 }  // namespace
 }  // namespace aircut::interp

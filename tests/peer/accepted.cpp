@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdio>
 #include <functional>
 #include <regex>
 #include <sstream>
+#include <utility>
 #include <vector>
+
+#include "base/text.h"
 
 namespace aircut::test {
 namespace {
@@ -173,6 +177,21 @@ std::string without_offsets_in_other_units(const std::string& program) {
   return out;
 }
 
+/// Without feeds to the point where the tool stands, in G18.
+Trace without_null_feeds(Trace trace) {
+  std::string at;
+  std::erase_if(trace.calls, [&](const Call& call) {
+    double x = 0, y = 0, z = 0;
+    if (std::sscanf(call.text.c_str(), "ARC_FEED(%lf, %lf,", &z, &x) != 2 &&
+        std::sscanf(call.text.c_str(), "STRAIGHT_FEED(%lf, %lf, %lf,", &x, &y, &z) != 3 &&
+        std::sscanf(call.text.c_str(), "STRAIGHT_TRAVERSE(%lf, %lf, %lf,", &x, &y, &z) != 3)
+      return false;
+    const std::string before = std::exchange(at, fixed(x, 4) + " " + fixed(z, 4));
+    return at == before && call.text.starts_with("STRAIGHT_FEED");
+  });
+  return trace;
+}
+
 /// Up to the first position that is beyond any machine, such as the tangent of 90 degrees: there a
 /// rotated frame leaves no digit of the other axis.
 Trace up_to_huge_numbers(Trace trace) {
@@ -216,6 +235,7 @@ class Rules {
   std::optional<Excuse> stand_in_reload() const;
   bool same_call() const;
   std::optional<Excuse> probe_of_no_way() const;
+  std::optional<Excuse> over_a_pocket() const;
   std::optional<Excuse> rounding() const;
 
   const std::string& program_;
@@ -341,10 +361,18 @@ std::optional<Excuse> Rules::rounding() const {
   return Excuse{"rounding decides", rest};
 }
 
+// Whether a level line begins at its level or a rounding error below it.
+std::optional<Excuse> Rules::over_a_pocket() const {
+  if (!acted(own_, {"G71.1", "G72.1"})) return std::nullopt;
+  if (difference(without_null_feeds(own_), without_null_feeds(reference_))) return std::nullopt;
+  return Excuse{"feeds to where the tool stands", ""};
+}
+
 std::optional<Excuse> Rules::excuse() const {
-  for (const auto rule : {&Rules::refused_here, &Rules::refused_there, &Rules::unreadable_line,
-                          &Rules::other_rates, &Rules::stand_in_tool, &Rules::stand_in_unit,
-                          &Rules::stand_in_reload, &Rules::probe_of_no_way, &Rules::rounding})
+  for (const auto rule :
+       {&Rules::refused_here, &Rules::refused_there, &Rules::unreadable_line, &Rules::other_rates,
+        &Rules::stand_in_tool, &Rules::stand_in_unit, &Rules::stand_in_reload,
+        &Rules::probe_of_no_way, &Rules::over_a_pocket, &Rules::rounding})
     if (auto found = (this->*rule)()) return found;
   return std::nullopt;
 }

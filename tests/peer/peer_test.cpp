@@ -233,8 +233,6 @@ TEST_F(Peer, AgreesOnProgramsMadeByChance) {
 /// Examples that meet an accepted deviation (docs/peer.md).
 std::string deviation_of(const std::string& example) {
   static const std::map<std::string, std::string> deviations = {
-      {"lathe_g70_71_demo.ngc", "G70 to G72"},
-      {"lathe_g7x_face_boring.ngc", "G70 to G72"},
       {"mmount.ngc", "M6 with G43 in force"},
       {"skeleton.ngc", "M6 with G43 in force"},
       {"offsets.ngc", "M61"},

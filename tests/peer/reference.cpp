@@ -57,32 +57,6 @@ bool is_ignored(const Call& call) {
   return call.text.starts_with("COMMENT(\"interpreter: ");
 }
 
-/// What an end of program may print beside PROGRAM_END.
-bool is_reset(const Call& call) {
-  static constexpr std::array resets = {"SET_G5X_OFFSET",
-                                        "SET_G92_OFFSET",
-                                        "SET_XY_ROTATION",
-                                        "SELECT_PLANE",
-                                        "SET_FEED_MODE",
-                                        "SET_FEED_RATE",
-                                        "STOP_SPINDLE_TURNING",
-                                        "SET_SPINDLE_MODE",
-                                        "MIST_OFF",
-                                        "FLOOD_OFF",
-                                        "ENABLE_FEED_OVERRIDE",
-                                        "ENABLE_SPEED_OVERRIDE",
-                                        "DISABLE_ADAPTIVE_FEED",
-                                        "ENABLE_FEED_HOLD",
-                                        "PALLET_SHUTTLE",
-                                        "PROGRAM_END"};
-  return std::find(resets.begin(), resets.end(), name_of(call)) != resets.end();
-}
-
-bool ends_program(const std::vector<Call>& calls) {
-  return std::any_of(calls.begin(), calls.end(),
-                     [](const Call& c) { return name_of(c) == "PROGRAM_END"; });
-}
-
 /// Both are rounded to four decimals, so they may be one step of the last decimal apart.
 bool same_number(double a, double b) {
   return std::abs(a - b) <= std::max(1.5e-4, 1e-6 * std::abs(a));
@@ -214,8 +188,6 @@ std::vector<Call> comparable(const Trace& trace) {
                                   [](const Call& c) { return name_of(c) == "ON_RESET"; });
   if (start != calls.end()) calls.erase(calls.begin(), start + 1);
   std::erase_if(calls, is_ignored);
-  if (!trace.error && ends_program(calls))
-    while (!calls.empty() && is_reset(calls.back())) calls.pop_back();
   return calls;
 }
 

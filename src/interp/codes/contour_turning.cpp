@@ -12,6 +12,7 @@ namespace aircut::interp {
 namespace {
 
 constexpr std::size_t max_moves = 100'000;
+constexpr double narrow_corner = 0.01;  // mm; the control gives no arc to corners below it
 
 bool words_fit(const CodeRule& rule, BlockRun& run) {
   const auto fail = [&](const char* kind, Place place, std::string text) {
@@ -114,14 +115,14 @@ bool ContourTurning::prepare() {
 // The contour with `distance` left on it, the approach in front and, when it roughs, up to the
 // level of the start at its end.
 bool ContourTurning::with_allowance(double distance) {
-  Contour moved = offset(body_, distance);
+  Contour moved = offset(body_, distance, narrow_corner);
   if (moved.empty()) {
     run_.error("contour_error", run_.has('D') ? run_.place('D') : run_.place(rule_),
                "nothing of the contour is left at this allowance");
     return false;
   }
   ContourPiece approach;
-  approach.start = {std::max(start_.u, moved.front().start.u), start_.v};
+  approach.start = {std::max(start_.u, body_.front().start.u), start_.v};
   approach.end = moved.front().start;
   approach_ = {approach};
   approach_.insert(approach_.end(), moved.begin(), moved.end());

@@ -10,6 +10,21 @@ void program_stop(const CodeRule& rule, BlockRun& run) {
   run.emit(canon::ProgramStop{rule.code == 1});
 }
 
+// A speed override that the program has switched off stays off on LinuxCNC: its M2 and M30 switch
+// the feed override on and forget this one, which its manual names as well.
+void reset_speed_override(const CodeRule& rule, BlockRun& run, int number) {
+  SpindleState& spindle = run.state.spindles[static_cast<std::size_t>(number)];
+  if (spindle.override_on) return;
+  if (run.session.options.dialect == Dialect::linuxcnc) {
+    run.warning("control_fault", run.place(rule),
+                "the speed override is off and stays off behind the program: the control switches "
+                "only the feed override on again; give M51 (or M48) before");
+    return;
+  }
+  spindle.override_on = true;
+  run.emit(canon::Override{canon::Override::Kind::speed, true, number});
+}
+
 // What is reset, and that units, G92, length offset, G98/99, path and lathe modes are not, follows
 // interp.md 7.
 void program_end(const CodeRule& rule, BlockRun& run) {
@@ -40,10 +55,7 @@ void program_end(const CodeRule& rule, BlockRun& run) {
   }
   for (int i = 0; i < run.session.options.spindles; ++i) {
     SpindleState& spindle = state.spindles[static_cast<std::size_t>(i)];
-    if (!spindle.override_on) {
-      spindle.override_on = true;
-      run.emit(canon::Override{canon::Override::Kind::speed, true, i});
-    }
+    reset_speed_override(rule, run, i);
     spindle.turn = canon::SpindleTurn::stop;
     spindle.css = false;
     canon::TurnSpindle stop;
