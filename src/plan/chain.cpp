@@ -14,6 +14,8 @@
 #include <cmath>
 #include <limits>
 
+#include "plan/joint_way.h"
+
 namespace aircut::plan {
 namespace {
 
@@ -35,7 +37,7 @@ double entry_speed(const Piece& piece, const Controllable& controllable) {
 Chain::Chain(std::size_t max_nodes, const machine::Kinematics& kinematics,
              const JointLimits& limits, const machine::JointVector& start, double period,
              std::vector<OverrideEvent> overrides)
-    : max_nodes_(max_nodes), overrides_(std::move(overrides)) {
+    : max_nodes_(max_nodes), limits_(limits), overrides_(std::move(overrides)) {
   if (limits.has_jerk()) jerk_.emplace(kinematics, limits, start, period);
 }
 
@@ -159,6 +161,8 @@ void Chain::hand_on(Segment&& segment, Grid&& grid, Ride&& ride, double per_exit
 void Chain::hand_on_still(Segment&& segment) {
   // Synchronised motion is planned for the speed that is programmed.
   if (segment.kind != MotionKind::sync) segment.spindle_rpm *= overrides_.spindle(segment);
+  if (std::holds_alternative<JointWay>(segment.path) && !overrides_.none())
+    override_joint_way(segment, limits_, overrides_, now());
   if (jerk_)
     jerk_->push_still(std::move(segment));
   else

@@ -65,6 +65,7 @@ class Chain {
   void drain_jerk_stage();
 
   std::size_t max_nodes_;
+  JointLimits limits_;
   Ring<Item> window_;
   std::size_t nodes_ = 0;       ///< in the window
   std::size_t next_try_ = 512;  ///< nodes at which it is worth looking for final pieces

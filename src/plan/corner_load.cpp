@@ -13,6 +13,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/law_writer.h"
+
 namespace aircut::plan {
 namespace {
 
@@ -20,11 +22,6 @@ constexpr double share = 0.65;
 
 double least(const machine::JointVector& limits, const machine::JointVector& dq) {
   return 1 / dq.cwiseQuotient(limits).cwiseAbs().maxCoeff();
-}
-
-double change_time(double change, const StraightLimits& limits) {
-  return change >= limits.a * limits.a / limits.j ? change / limits.a + limits.a / limits.j
-                                                  : 2 * std::sqrt(change / limits.j);
 }
 
 double largest(const machine::JointVector& x) { return x.cwiseAbs().maxCoeff(); }

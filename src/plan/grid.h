@@ -15,6 +15,8 @@ struct JointLimits {
   bool has_jerk() const { return !j.array().isInf().all(); }
 };
 
+JointLimits limits_of(const machine::Machine& machine);
+
 inline constexpr int most_tip_rows = 32;
 
 struct GridNode {

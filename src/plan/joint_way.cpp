@@ -8,39 +8,26 @@
 // Both rest at their ends. The path's parameter s counts along the straight way between the ends,
 // so that it is in mm as everywhere; in a dogleg it runs evenly with time. A joint never turns
 // back, so its way between two places is the difference of its values there: an exact bound.
+#include "plan/joint_way.h"
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "plan/geometry.h"
 #include "plan/s_curve.h"
 
 namespace aircut::plan {
-namespace {
-
-double infinity() { return std::numeric_limits<double>::infinity(); }
-
-StraightLimits limits_of(const machine::Machine& machine, Eigen::Index j) {
-  const machine::Joint& joint = machine.joint(machine::JointId{static_cast<int>(j)});
-  return {joint.vmax, joint.amax, joint.jmax};
-}
-
-// A straight way of `length` on which joint j goes change[j].
-StraightLimits along(const machine::Machine& machine, const machine::JointVector& change,
-                     double length) {
-  StraightLimits out{infinity(), infinity(), infinity()};
-  for (Eigen::Index j = 0; j < change.size(); ++j) {
-    if (change[j] == 0) continue;
-    const StraightLimits joint = limits_of(machine, j);
-    const double per_way = length / std::abs(change[j]);
-    out.v = std::min(out.v, joint.v * per_way);
-    out.a = std::min(out.a, joint.a * per_way);
-    out.j = std::min(out.j, joint.j * per_way);
+JointLimits limits_of(const machine::Machine& machine) {
+  const int n = machine.joint_count();
+  JointLimits out{machine::JointVector(n), machine::JointVector(n), machine::JointVector(n),
+                  machine.tip_acceleration()};
+  for (int j = 0; j < n; ++j) {
+    out.v[j] = machine.joint(machine::JointId{j}).vmax;
+    out.a[j] = machine.joint(machine::JointId{j}).amax;
+    out.j[j] = machine.joint(machine::JointId{j}).jmax;
   }
   return out;
 }
-
-}  // namespace
 
 JointPoint joint_point(const JointWay& way, double s) {
   const machine::JointVector change = way.to - way.from;
@@ -86,15 +73,16 @@ tl::expected<JointRapid, machine::ReachError> joint_rapid(const machine::Machine
   way.length = make_line(start, end).length;
   const machine::JointVector change = way.to - from;
   if (!(way.length > 0) || change.isZero(0)) return out;
+  const JointLimits limits = limits_of(machine);
   if (machine.rapid() == machine::RapidMode::joint) {
-    out.profile = s_curve(way.length, along(machine, change, way.length));
+    out.profile = s_curve(way.length, limits_along(limits, change, way.length));
     return out;
   }
   way.laws.resize(static_cast<std::size_t>(change.size()));
   for (Eigen::Index j = 0; j < change.size(); ++j) {
     if (change[j] == 0) continue;
     SpeedProfile& law = way.laws[static_cast<std::size_t>(j)];
-    law = s_curve(std::abs(change[j]), limits_of(machine, j));
+    law = s_curve(std::abs(change[j]), {limits.v[j], limits.a[j], limits.j[j]});
     way.seconds = std::max(way.seconds, law.duration());
   }
   const double speed = way.length / way.seconds;

@@ -42,18 +42,6 @@ double mixed_norm(const AxisValues& way) {
 AxisValues start_direction(const Path& path) { return evaluate(path, 0).d; }
 AxisValues end_direction(const Path& path) { return evaluate(path, length(path)).d; }
 
-JointLimits limits_of(const machine::Machine& machine) {
-  const int n = machine.joint_count();
-  JointLimits out{machine::JointVector(n), machine::JointVector(n), machine::JointVector(n),
-                  machine.tip_acceleration()};
-  for (int j = 0; j < n; ++j) {
-    out.v[j] = machine.joint(machine::JointId{j}).vmax;
-    out.a[j] = machine.joint(machine::JointId{j}).amax;
-    out.j[j] = machine.joint(machine::JointId{j}).jmax;
-  }
-  return out;
-}
-
 }  // namespace
 
 Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, const Options& options)

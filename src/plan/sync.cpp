@@ -13,56 +13,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/law_writer.h"
+
 namespace aircut::plan {
-namespace {
-
-double change_time(double change, const StraightLimits& limits) {
-  if (std::isinf(limits.j)) return change / limits.a;
-  return change >= limits.a * limits.a / limits.j ? change / limits.a + limits.a / limits.j
-                                                  : 2 * std::sqrt(change / limits.j);
-}
-
-class Writer {
- public:
-  // A change of speed, with acceleration zero at both ends under a jerk limit.
-  void change(double v1, const StraightLimits& limits) {
-    const double sense = v1 > at_.v ? 1 : -1, size = std::abs(v1 - at_.v);
-    if (!(size > 0)) return;
-    if (std::isinf(limits.j)) {
-      go(size / limits.a, 0, sense * limits.a);
-    } else {
-      const bool holds = size > limits.a * limits.a / limits.j;
-      const double rise = holds ? limits.a / limits.j : std::sqrt(size / limits.j);
-      const double top = sense * rise * limits.j;
-      go(rise, sense * limits.j, 0);
-      if (holds) go(size / limits.a - limits.a / limits.j, 0, top);
-      go(rise, -sense * limits.j, top);
-    }
-    at_.v = v1;
-  }
-  void cruise(double seconds) { go(seconds, 0, 0); }
-  double s() const { return at_.s; }
-  SpeedProfile finish(double s) {
-    profile_.knots.push_back({at_.t, s, at_.v, 0, 0});
-    return std::move(profile_);
-  }
-  void start(double v) { at_.v = v; }
-
- private:
-  void go(double d, double jerk, double acceleration) {
-    if (!(d > 0)) return;
-    at_.a = acceleration;
-    at_.j = jerk;
-    profile_.knots.push_back(at_);
-    at_.s += d * (at_.v + d * (acceleration / 2 + d * jerk / 6));
-    at_.v += d * (acceleration + d * jerk / 2);
-    at_.t += d;
-  }
-  SpeedProfile profile_;
-  ProfileKnot at_;
-};
-
-}  // namespace
 
 std::optional<SyncLaw> sync_law(double length, double speed, const StraightLimits& limits) {
   const auto gain = [&](double peak) {
@@ -77,7 +30,7 @@ std::optional<SyncLaw> sync_law(double length, double speed, const StraightLimit
     const double middle = (low + high) / 2;
     (gain(middle) < 0 ? low : high) = middle;
   }
-  Writer lock;
+  LawWriter lock;
   lock.change(high, limits);
   if (capped) lock.cruise(-gain(high) / (high - speed));
   lock.change(speed, limits);
@@ -88,8 +41,7 @@ std::optional<SyncLaw> sync_law(double length, double speed, const StraightLimit
   if (rest < 0) return std::nullopt;
   lock.cruise(rest / speed);
   out.lock = lock.finish(length - stop_way);
-  Writer stop;
-  stop.start(speed);
+  LawWriter stop(ProfileKnot{0, 0, speed, 0, 0});
   stop.change(0, limits);
   out.stop = stop.finish(stop_way);
   return out;

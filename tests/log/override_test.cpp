@@ -82,6 +82,51 @@ TEST_P(Override, OfRapidsActsOnRapidsAlone) {
   expect_limits(logged(machine_, plan_with(*machine_, program, {{1, What::rapid, 0.25}})));
 }
 
+// X goes 80 mm at 100 mm/s, Z 20 mm at 50: it is there first.
+TEST_P(Override, OfADoglegSlowsEachJointDownFromItsTimeOn) {
+  machine_->rapid_ = machine::RapidMode::dogleg;
+  Program program;
+  program.rapid(xyz(80, 0, 20)).rapid(xyz(0, 0, 0));
+  const double ramp = GetParam() ? 0.05 : 0;
+  EXPECT_NEAR(plan_with(*machine_, program, {}).time(), 2 * (0.9 + ramp), 1e-9);
+  EXPECT_NEAR(plan_with(*machine_, program, {{0, What::rapid, 0.25}}).time(),
+              2 * (80 / 25.0 + 0.025 + (GetParam() ? 0.025 / std::sqrt(0.5) : 0)), 0.03);
+  // From 0.5 s on: X has gone 45 mm (42.5 with the jerk's ramp).
+  const Planned planned = plan_with(*machine_, program, {{0.5, What::rapid, 0.5}});
+  const JointLog log = logged(machine_, planned);
+  expect_limits(log);
+  EXPECT_NEAR(log.value(500, "v0"), 100, 1e-6);
+  EXPECT_LT(log.value(502, "v0"), 100);
+  EXPECT_NEAR(log.value(620, "v0"), 50, 1e-6);
+  EXPECT_NEAR(log.rows.back()[log.column("x")], 0, 1e-9);
+}
+
+TEST_P(Override, HoldsADoglegAndGoesOnAtItsTimes) {
+  machine_->rapid_ = machine::RapidMode::dogleg;
+  Program program;
+  program.rapid(xyz(80, 3, 20)).rapid(xyz(0, 0, 0)).feed(20).line(xyz(1, 0, 0));
+  const double plain = plan_with(*machine_, program, {}).time();
+  for (double t = 0; t < 1.9; t += 0.163) {
+    const Planned planned = plan_with(*machine_, program,
+                                      {{t, What::hold},
+                                       {t + 0.4, What::resume},
+                                       {t + 0.45, What::rapid, 0.3},
+                                       {t + 0.5, What::rapid, 1}});
+    ASSERT_TRUE(planned.errors.empty());
+    const JointLog log = logged(machine_, planned);
+    expect_limits(log);
+    EXPECT_GE(planned.time(), plain + (t < 1.5 ? 0.2 : 0)) << t;
+    EXPECT_LT(planned.time(), plain + 0.8) << t;
+    const auto row = static_cast<std::size_t>(1000 * t) + 399;
+    double moves = 0;
+    for (const char* v : {"v0", "v1", "v2"}) moves = std::max(moves, std::abs(log.value(row, v)));
+    if (t < 0.6) {
+      EXPECT_EQ(moves, 0) << t;
+    }
+    EXPECT_NEAR(log.rows.back()[log.column("x")], 1, 1e-9);
+  }
+}
+
 TEST_P(Override, HoldStopsGoesOnAtItsTimeAndChangesNothingOfThePath) {
   const Planned planned =
       plan_with(*machine_, there_and_back(), {{4, What::hold}, {7, What::resume}});
