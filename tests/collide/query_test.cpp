@@ -125,6 +125,21 @@ TEST(Distance, AgreesWithAllTrianglePairsOnRandomPoses) {
   EXPECT_LT(met, 1400);
 }
 
+TEST(Judge, PassesOverNothingThatMatters) {
+  Random random(12);
+  for (int i = 0; i < 200; ++i) {
+    const TriangleMesh a = i % 4 == 0 ? bumpy_ball(random, 200) : random_body(random);
+    const TriangleMesh b = random_body(random);
+    const Pose X_AB = translation(random.in_box(4)) * random.turned();
+    const bool meets = brute_force::overlap(a, origin, b, X_AB);
+    const double wanted = meets ? 0 : brute_force::surface_distance(a, origin, b, X_AB);
+    brute_force::Nearest nearest;
+    const double got =
+        brute_force::distance(brute_force::Solid(a), brute_force::Solid(b), X_AB, nearest);
+    ASSERT_NEAR(got, wanted, 1e-9) << i;
+  }
+}
+
 TEST(Penetration, OfCubesIsTheOverlapAlongTheShallowAxis) {
   const CollisionMesh a(cube(2));
   const Penetration p = penetration(a, origin, a, translation({1.9, 0.2, 0.1}), {}, 1e-4);

@@ -1,7 +1,9 @@
 // Motions and random bodies for the tests of the collide library.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
 
 #include "collide/collide.h"
@@ -99,6 +101,41 @@ inline TriangleMesh random_body(Random& random) {
       return mesh;
     }
   }
+}
+
+/// A closed star-shaped body with dents, about 4 mm across, of `triangles` triangles or a few less:
+/// points on circles of latitude, their distance from the middle a sum of waves.
+inline TriangleMesh bumpy_ball(Random& random, int triangles) {
+  const int round = std::max(4, static_cast<int>(std::sqrt(triangles)));
+  const int rings = std::max(2, triangles / (2 * round));
+  const double depth = random.uniform(0, 0.5), squeeze = random.uniform(0.2, 1);
+  const int waves = 1 + random.pick(6), more = 1 + random.pick(6);
+  constexpr double pi = 3.14159265358979;
+  TriangleMesh out;
+  const auto point = [&](double latitude, double longitude) {
+    const double r = 2 * (1 + depth * std::sin(waves * longitude) * std::sin(latitude) *
+                                  std::cos(more * latitude));
+    out.vertices.emplace_back(r * std::sin(latitude) * std::cos(longitude),
+                              r * std::sin(latitude) * std::sin(longitude),
+                              squeeze * r * std::cos(latitude));
+  };
+  point(0, 0);
+  for (int i = 1; i <= rings; ++i)
+    for (int k = 0; k < round; ++k) point(pi * i / (rings + 1), 2 * pi * k / round);
+  point(pi, 0);
+  const auto at = [&](int ring, int k) {
+    return static_cast<std::uint32_t>(1 + (ring - 1) * round + k % round);
+  };
+  const auto last = static_cast<std::uint32_t>(out.vertices.size() - 1);
+  for (int k = 0; k < round; ++k) {
+    out.triangles.push_back({0, at(1, k), at(1, k + 1)});
+    for (int i = 1; i < rings; ++i) {
+      out.triangles.push_back({at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      out.triangles.push_back({at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+    out.triangles.push_back({at(rings, k), last, at(rings, k + 1)});
+  }
+  return out;
 }
 
 }  // namespace aircut::collide
