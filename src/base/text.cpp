@@ -8,7 +8,13 @@
 namespace aircut {
 
 void append_shortest(std::string& out, double value) {
-  if (value == 0) value = 0;  // minus zero
+  // Most numbers of a joint log are small whole ones, which need no search.
+  if (value >= 0 && value < 10) {
+    if (const int whole = static_cast<int>(value); whole == value) {  // also minus zero
+      out.push_back(static_cast<char>('0' + whole));
+      return;
+    }
+  }
   char buffer[32];
   const auto done = std::to_chars(buffer, buffer + sizeof buffer, value);
   out.append(buffer, done.ptr);

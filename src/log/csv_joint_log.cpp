@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <numbers>
 
 #include "log/log.h"
@@ -162,9 +163,17 @@ struct CsvJointLog::Impl {
   void fail(std::string message) {
     if (result) result = unexpected(make_error("output_failed", std::move(message)));
   }
+  // A column often has the number of the row before: then its text is copied.
   void number(double value) {
     rows.push_back(',');
-    append_shortest(rows, value);
+    if (column == texts.size()) texts.emplace_back();
+    Text& last = texts[column++];
+    if (!(last.value == value)) {
+      last.text.clear();
+      append_shortest(last.text, value);
+      last.value = value;
+    }
+    rows += last.text;
   }
   void joints(const machine::JointVector& values) {
     for (Eigen::Index j = 0; j < values.size(); ++j)
@@ -177,6 +186,12 @@ struct CsvJointLog::Impl {
   std::vector<double> scale;  ///< file unit per internal unit, by joint
   Spool spool;
   std::string rows;
+  struct Text {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    std::string text;
+  };
+  std::vector<Text> texts;  ///< of the last row, by number()
+  std::size_t column = 0;
   std::uint64_t next = 0;     ///< number of the next sample
   std::uint64_t written = 0;  ///< rows
   double revolutions = 0;     ///< of the spindle at the end of the steps so far
@@ -237,6 +252,7 @@ void CsvJointLog::Impl::row(const plan::Segment& segment, const motion::JointSta
     flags |= other_tip;
   last_kinematics = segment.kinematics;
   last_offset = segment.tool_offset;
+  column = 0;
   append_shortest(rows, t);
   rows += ',';
   rows += std::to_string(segment.command.span.line);

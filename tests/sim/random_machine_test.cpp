@@ -138,7 +138,7 @@ void judge_scene(unsigned seed, Counts& counts) {
   SourceMap sources;
   CheckOptions options;
   options.near = scene.near;
-  options.detailed = seed % 8 == 0 ? 100 : 0;  // depths take most of the time
+  options.detailed = seed % 16 == 0 ? 100 : 0;  // depths take most of the time
   const RunResult run = run_program(scene.program, scene.machine, {}, sources, options);
   for (const Diagnostic& d : run.diagnostics.list()) ADD_FAILURE() << format_human(d, {});
   const auto& bodies = scene.machine->bodies();

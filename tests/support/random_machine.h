@@ -157,10 +157,11 @@ namespace random_machine {
 
 using collide::Random;
 
-/// From a box to 5000 triangles; half of the bodies are small, many of them thin plates.
+/// From a box to 5000 triangles; most of the bodies are small, many of them thin plates.
 inline TriangleMesh body(Random& random) {
-  if (random.pick(2) == 0) return collide::random_body(random);
-  if (random.pick(6) == 0) return make_box({-6, -6, -0.01}, {6, 6, 0.01});
+  const int choice = random.pick(10);
+  if (choice < 6) return collide::random_body(random);
+  if (choice < 7) return make_box({-6, -6, -0.01}, {6, 6, 0.01});
   const double triangles = 30 * std::pow(5000.0 / 30, random.uniform(0, 1));
   return collide::bumpy_ball(random, static_cast<int>(triangles));
 }

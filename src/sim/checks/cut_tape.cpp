@@ -4,6 +4,8 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <optional>
+#include <utility>
 
 #include "sim/checks/turning.h"
 
@@ -30,11 +32,57 @@ stock::Piece piece_of(const Record& record, const Cutters& cutters) {
   return {cutters[record.cutter].get(), vec(record.start), vec(record.end), vec(record.axis), 0};
 }
 
+// Puts pieces that follow one another into one where the straight way past all their ends is no
+// farther than a tolerance from any of them. A picture shows less than that.
+class Joiner {
+ public:
+  explicit Joiner(double tolerance) : tolerance_(tolerance) {}
+
+  /// What is complete, if this piece does not go on with it.
+  std::optional<stock::Piece> add(const stock::Piece& piece) {
+    if (piece_ && piece.cutter == piece_->cutter && piece.axis == piece_->axis &&
+        (piece.start - piece_->end).norm() < 1e-6 && ends_.size() < most_ends &&
+        stays_near(piece.end)) {
+      ends_.push_back(piece_->end);
+      piece_->end = piece.end;
+      return std::nullopt;
+    }
+    ends_.clear();
+    return std::exchange(piece_, piece);
+  }
+  std::optional<stock::Piece> rest() {
+    ends_.clear();
+    return std::exchange(piece_, std::nullopt);
+  }
+
+ private:
+  // What is looked at again for every piece; longer chains gain nothing.
+  static constexpr std::size_t most_ends = 12;
+
+  bool near(const Vec3& p, const Vec3& end) const {
+    const Vec3 way = end - piece_->start, from = p - piece_->start;
+    const double square = way.squaredNorm();
+    const double f = square > 0 ? std::clamp(from.dot(way) / square, 0.0, 1.0) : 0;
+    return (from - f * way).squaredNorm() <= tolerance_ * tolerance_;
+  }
+  bool stays_near(const Vec3& end) const {
+    return near(piece_->end, end) &&
+           std::all_of(ends_.begin(), ends_.end(), [&](const Vec3& p) { return near(p, end); });
+  }
+
+  double tolerance_;
+  std::optional<stock::Piece> piece_;
+  std::vector<Vec3> ends_;  ///< of the pieces in it but for the last
+};
+
 class Player final : public StockHistory {
  public:
   Player(std::shared_ptr<std::FILE> file, std::shared_ptr<const Cutters> cutters,
-         stock::Stock stock)
-      : file_(std::move(file)), cutters_(std::move(cutters)), stock_(std::move(stock)) {
+         stock::Stock stock, double tolerance)
+      : file_(std::move(file)),
+        cutters_(std::move(cutters)),
+        stock_(std::move(stock)),
+        joiner_(tolerance) {
     more_ = read();
   }
 
@@ -49,12 +97,13 @@ class Player final : public StockHistory {
       return {};
     };
     while (more_ && next_.t <= t) {
-      pieces.push_back(piece_of(next_, *cutters_));
+      if (const auto piece = joiner_.add(piece_of(next_, *cutters_))) pieces.push_back(*piece);
       if (pieces.size() == 4096)
         if (auto done = cut(); !done) return unexpected(done.error());
       more_ = read();
     }
     if (std::ferror(file_.get()) != 0) return unexpected(disk_error("can't read a temporary file"));
+    if (const auto piece = joiner_.rest()) pieces.push_back(*piece);
     if (auto done = cut(); !done) return unexpected(done.error());
     if (changed) mesh_ = std::make_shared<TriangleMesh>(stock_.mesh());
     return mesh_;
@@ -66,6 +115,7 @@ class Player final : public StockHistory {
   std::shared_ptr<std::FILE> file_;
   std::shared_ptr<const Cutters> cutters_;
   stock::Stock stock_;
+  Joiner joiner_;
   Record next_{};
   bool more_ = false;
   std::shared_ptr<const TriangleMesh> mesh_;
@@ -174,7 +224,7 @@ Expected<std::unique_ptr<StockHistory>> CutTape::play(const machine::RawStock& r
   const double pitch = std::max(raw.pitch.value_or(default_pitch(raw)), longest_side(raw) / steps);
   auto stock = make_stock(raw, pitch);
   if (!stock) return unexpected(stock.error());
-  return std::make_unique<Player>(file_, cutters_, std::move(*stock));
+  return std::make_unique<Player>(file_, cutters_, std::move(*stock), pitch / 10);
 }
 
 }  // namespace aircut::sim
