@@ -114,13 +114,18 @@ void Chain::emit_final() {
 // Carries out the first `count` pieces by their stop-safe pass. False when an event came between:
 // then the speeds that can be braked from are others.
 bool Chain::emit(std::size_t count) {
+  const auto place = count > 0 ? find_event() : std::nullopt;
   for (std::size_t i = 0; i < count; ++i) {
     Item& item = window_.front();
     Ride ride;
     if (item.factor > 0) ride = accelerate(item.piece.grid, item.stop, b_);
-    if (const bool event = interrupted(ride); event || item.factor == 0) {
+    const bool event = jerk_ ? place && place->piece == i : interrupted(ride);
+    if (event || item.factor == 0) {
       const double until = event ? overrides_.next() : now();
-      go_until_event(std::move(ride), item.factor);
+      if (place && event)
+        go_until(*place, std::move(ride), item.factor);
+      else
+        go_until_event(std::move(ride), item.factor);
       override_until(until);
       drain_jerk_stage();
       return false;
@@ -141,9 +146,13 @@ void Chain::finish_front(Ride&& ride, double factor) {
           item.piece.per_exit, factor);
   for (Segment& still : item.after) hand_on_still(std::move(still));
   window_.pop_front();
-  b_ = b_end;
-  if (!window_.empty())
-    b_ = std::min(b_ * window_.front().piece.per_exit, window_.front().piece.entry);
+  b_ = window_.empty() ? b_end : entry_of(0, b_end);
+}
+
+// Squared speed at the start of a piece of the window by that at the end of the piece before it.
+double Chain::entry_of(std::size_t i, double b_end) const {
+  const Piece& piece = window_[i].piece;
+  return std::min(b_end * piece.per_exit, piece.entry);
 }
 
 // `factor`: of the speeds, by overrides.
@@ -151,6 +160,7 @@ void Chain::hand_on(Segment&& segment, Grid&& grid, Ride&& ride, double per_exit
   segment.profile = std::move(ride.profile);
   segment.limited_by = ride.limited_by;
   segment.feed *= factor;
+  if (known_) *known_ += segment.duration();
   segment.spindle_rpm *= overrides_.spindle(segment);
   if (jerk_)
     jerk_->push(std::move(segment), std::move(grid), std::sqrt(per_exit));

@@ -53,6 +53,15 @@ class Chain {
   void hand_on_still(Segment&& segment);
   void finish_front(Ride&& ride, double factor);
   // With overrides (chain_override.cpp):
+  /// Where the next event comes under jerk limits.
+  struct EventPlace {
+    std::size_t piece = 0;  ///< of the window
+    double s = 0, v = 0;    ///< of its path, and the speed there
+    double t = 0;           ///< program time there
+  };
+  double entry_of(std::size_t i, double b_end) const;
+  std::optional<EventPlace> find_event() const;
+  void go_until(const EventPlace& place, Ride ride, double factor);
   bool interrupted(const Ride& ride) const;
   void set_factor(Item& item);
   void give_part(Ride ride, double factor);
@@ -73,6 +82,7 @@ class Chain {
   double clock_ = 0;  ///< program time, s
   double turns_ = 0;
   Overrides overrides_;            ///< as of the time now()
+  std::optional<double> known_;    ///< time at the end of what was handed on, where it is known
   std::optional<JerkStage> jerk_;  ///< when a joint has a jerk limit
   std::vector<Segment> ready_;
   std::size_t taken_ = 0;  ///< of ready_

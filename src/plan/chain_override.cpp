@@ -10,9 +10,11 @@
 // The joints' limits never change, and neither does the path. A factor of 0 is a hold: the motion
 // waits at rest for the next event.
 //
-// Under jerk limits the time that is known here is that of the pieces which are final and an
-// estimate (without jerk limits) for those that are not, a second or two of motion; and the jerk
-// stage begins to brake a little earlier, because it can't brake as hard at once.
+// Under jerk limits the place of an event is that of the law which the jerk stage would find if the
+// event did not come: a copy of the stage is given the pieces of the window to see. There the
+// motion can't brake as hard at once: a ramp of the acceleration that lasts r loses as much speed
+// as full braking in its second half. So the braking here, which knows no ramps, begins r/2 later,
+// and that of the jerk stage at the event.
 #include <cmath>
 #include <limits>
 
@@ -43,7 +45,67 @@ void drop_near_end(Ride& ride, double near) {
 
 }  // namespace
 
-double Chain::now() const { return jerk_ ? jerk_->time_given() : clock_; }
+double Chain::now() const { return known_ ? *known_ : jerk_ ? jerk_->time_given() : clock_; }
+
+std::optional<Chain::EventPlace> Chain::find_event() const {
+  const double event = overrides_.next();
+  if (!jerk_ || std::isinf(event)) return std::nullopt;
+  // Pieces up to well behind the event; with jerk limits it only comes earlier on the way.
+  const double begin = jerk_->time_given(), enough = event + 2 * jerk_->brake_time() + 0.5;
+  std::vector<Ride> rides;
+  double b = b_, end = begin;
+  for (std::size_t i = 0; i < window_.size() && end < enough && window_[i].factor > 0; ++i) {
+    const Item& item = window_[i];
+    if (i > 0) b = std::min(entry_of(i, b), item.stop.front());
+    rides.push_back(accelerate(item.piece.grid, item.stop, b));
+    end += rides.back().profile.duration();
+    b = rides.back().b_end;
+  }
+  constexpr double slower = 10, some = 1;  // s
+  const double clock = jerk_->clock();
+  if (event > clock + slower * (end - clock) + some) return std::nullopt;
+
+  JerkStage trial = jerk_->trial();
+  for (std::size_t i = 0; i < rides.size(); ++i) {
+    const Item& item = window_[i];
+    Segment segment = item.piece.segment;
+    segment.profile = std::move(rides[i].profile);
+    segment.feed *= item.factor;
+    segment.t_start = static_cast<double>(i + 1);  // its name here
+    trial.push(std::move(segment), item.piece.grid, std::sqrt(item.piece.per_exit));
+  }
+  trial.stop();
+  Overrides then = overrides_;
+  then.apply(event);
+  double t = clock;
+  for (const Segment& segment : trial.take()) {
+    const bool here = segment.t_start > 0;
+    const auto i = here ? static_cast<std::size_t>(segment.t_start) - 1 : 0;
+    const bool brakes = here && then.factor(window_[i].piece.segment) < window_[i].factor;
+    const double at = event + (brakes ? jerk_->ramp_time() / 2 : 0);
+    if (at < t + segment.duration()) {
+      if (!here) return EventPlace{0, 0, infinity, begin};  // it has gone on without it
+      const auto state = segment.profile.at(std::max(at - t, 0.0));
+      return EventPlace{i, state.s, brakes ? state.v : infinity, std::max(at, t)};
+    }
+    t += segment.duration();
+  }
+  return std::nullopt;
+}
+
+// The front piece goes out up to there.
+void Chain::go_until(const EventPlace& place, Ride ride, double factor) {
+  double low = 0, high = ride.profile.duration();
+  for (int i = 0; i < 100 && low < high; ++i) {
+    const double middle = (low + high) / 2;
+    (ride.profile.at(middle).s < place.s ? low : high) = middle;
+  }
+  cut_at(ride, high);
+  const std::size_t before = window_.size();
+  give_part(std::move(ride), factor);
+  if (window_.size() == before) b_ = std::min(b_, place.v * place.v);
+  known_ = place.t;
+}
 
 // True if an event comes before the ride ends.
 bool Chain::interrupted(const Ride& ride) const {
@@ -107,12 +169,14 @@ void Chain::override_until(double t) {
     if (b_ > 0) continue;
     if (jerk_) jerk_->stop();
     drain_jerk_stage();
+    known_.reset();
     if (settled && !window_.empty() && window_.front().factor == 0) {
       t = overrides_.next();
       wait_for_event();
       settled = false;
     }
   }
+  known_.reset();
   for (std::size_t i = 0; i < window_.size(); ++i) window_[i].before = window_[i].factor;
 }
 

@@ -42,6 +42,7 @@ JerkStage::JerkStage(const machine::Kinematics& kinematics, const JointLimits& l
   for (Eigen::Index j = 0; j < limits.a.size(); ++j) {
     const double ramp = std::isfinite(window_.rate[j]) ? 1 / window_.rate[j] : 0;
     window_.brake_time = std::max(window_.brake_time, limits.v[j] / limits.a[j] + ramp);
+    ramp_time_ = std::max(ramp_time_, ramp);
   }
   next_plan_ = window_time();
 }

@@ -12,8 +12,9 @@ class JerkStage {
   /// `start`: joints at program time 0. The kinematics must outlive the stage.
   JerkStage(const machine::Kinematics& kinematics, const JointLimits& limits,
             machine::JointVector start, double period);
-  JerkStage(const JerkStage&) = delete;
   JerkStage& operator=(const JerkStage&) = delete;
+  /// A copy, to see what would come out; this one must outlive it.
+  JerkStage trial() const { return *this; }
 
   /// A piece with its fastest second-order profile. `scale`: path speed here per path speed at the
   /// end of the piece before.
@@ -25,10 +26,16 @@ class JerkStage {
   void stop();
   /// Program time at the end of all that came in; of what is not final without its jerk limit.
   double time_given() const { return clock_ + waiting_; }
+  /// Program time at the end of all that went out.
+  double clock() const { return clock_; }
+  /// From the highest speed to rest, and from none to the largest acceleration, at most, s.
+  double brake_time() const { return window_.brake_time; }
+  double ramp_time() const { return ramp_time_; }
   /// Segments whose time law is final, in order.
   std::vector<Segment> take();
 
  private:
+  JerkStage(const JerkStage&) = default;
   double way_end() const { return items_.back().end(); }
   double window_time() const;
   bool goes_on_straight(const WayItem& item) const;
@@ -52,6 +59,7 @@ class JerkStage {
   JerkWindow window_;
   LogSamples samples_;
   std::deque<WayItem> items_;
+  double ramp_time_ = 0;
   bool straight_ = true;  ///< one straight run so far, from rest
   double waiting_ = 0;    ///< second-order time of the items, s
   double next_plan_ = 0;  ///< at which it is worth planning again

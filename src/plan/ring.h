@@ -14,6 +14,7 @@ class Ring {
   bool empty() const { return count_ == 0; }
   std::size_t size() const { return count_; }
   T& operator[](std::size_t i) { return items_[place(i)]; }
+  const T& operator[](std::size_t i) const { return items_[place(i)]; }
   T& front() { return items_[first_]; }
   T& back() { return items_[place(count_ - 1)]; }
 

@@ -63,6 +63,28 @@ TEST_P(Override, ActsFromItsTimeOn) {
   EXPECT_NEAR(log.value(5200, "feed_cmd"), 10, 1e-3);
 }
 
+// Up to the event the rows are those of the program without it; at it braking begins.
+TEST_P(Override, ChangesNothingBeforeItsTimeAndBrakesFromThenOn) {
+  Program program;
+  program.exact_path().feed(30);
+  for (int i = 1; i <= 8; ++i)
+    program.line(xyz(9 * i, 0, i % 2 ? 0 : 4)).arc(xyz(9 * i, 0, i % 2 ? 0 : 4), 9 * i - 2, 0, 1);
+  program.line(xyz(0, 0, 0));
+  const JointLog plain = logged(machine_, plan_with(*machine_, program, {}));
+  for (const double t : {0.02, 0.31, 2.3, 5.02, 7.777}) {
+    const Planned planned = plan_with(*machine_, program, {{t, What::hold}, {t + 1, What::resume}});
+    const JointLog log = logged(machine_, planned);
+    expect_limits(log);
+    const auto row = static_cast<std::size_t>(1000 * t);
+    for (std::size_t k = 0; k + 3 < row; ++k)
+      for (const char* q : {"q0", "q1", "q2"})
+        ASSERT_NEAR(log.value(k, q), plain.value(k, q), 0.01) << t << " row " << k;
+    // It rests when hard braking is over, at most 30 mm/s with 500 mm/s² and ramps of 25 ms.
+    EXPECT_EQ(log.value(row + 140, "feed_act"), 0) << t;
+    EXPECT_GT(log.value(row + 1030, "feed_act"), 0) << t;
+  }
+}
+
 TEST_P(Override, NeverMakesAJointFasterThanItIs) {
   const Planned planned = plan_with(*machine_, there_and_back(), {{3, What::feed, 20}});
   const JointLog log = logged(machine_, planned);
