@@ -110,6 +110,76 @@ TEST(JerkLimit, ReversingAPathTakesTheSameTime) {
   EXPECT_NEAR(planned.time(), forth, 2e-3 * forth);
 }
 
+// Feed and speed k times as large, acceleration k² and jerk k³ times, the period divided by k.
+TEST(JerkLimit, ScalingSpeedsDividesTheTime) {
+  const double t = wave_time(*jerky(), wave(20, 1));
+  for (const double k : {0.5, 2.0, 3.0}) {
+    Options options;
+    options.period = 0.001 / k;
+    EXPECT_NEAR(wave_time(*jerky(k), wave(20, 1, k), options), t / k, 1e-6 * t / k) << k;
+  }
+}
+
+TEST(JerkLimit, PermutingAxesOrMovingTheStartChangesNothing) {
+  const std::vector<JointLimit> limits(3, {100, 1000, 20000});
+  const auto machine = identity_machine("XYZ", limits);
+  const auto time_of = [&](int first, const AxisValues& start) {
+    Program program;
+    program.feed(40).blend(0.05);
+    for (int i = 1; i <= 12; ++i) {
+      AxisValues to = start;
+      to.value[static_cast<std::size_t>(first)] += 3 * i;
+      to.value[static_cast<std::size_t>((first + 1) % 3)] += i % 2 ? 4 : 0;
+      program.line(to);
+    }
+    return plan_program(*machine, joints_at(*machine, start), program).time();
+  };
+  const double t = time_of(0, {});
+  EXPECT_NEAR(time_of(1, {}), t, 1e-6 * t);
+  EXPECT_NEAR(time_of(2, {}), t, 1e-6 * t);
+  EXPECT_NEAR(time_of(0, xyz(30, -70, 11)), t, 1e-6 * t);
+}
+
+// ---- traps of other planners -----------------------------------------------------------------
+
+// Short chords of a curve must not be ridden from zero acceleration to zero acceleration.
+TEST(Trap, ADensePathDoesNotCrawlUnderAJerkLimit) {
+  const auto machine = jerky();
+  constexpr double r = 500, angle = 0.3;
+  constexpr int chords = 300;
+  const auto at = [](double a) { return xyz(r * std::cos(a), r * std::sin(a), 0); };
+  Program arc, dense;
+  arc.feed(60).arc(at(angle), 0, 0);
+  dense.feed(60).blend(0.01).merge(0);
+  for (int i = 1; i <= chords; ++i) dense.line(at(angle * i / chords));
+  const auto start = joints_at(*machine, at(0));
+  const double t = plan_program(*machine, start, arc).time();
+  EXPECT_NEAR(plan_program(*machine, start, dense).time(), t, 0.01 * t);
+}
+
+// With a limit of the tip alone a path takes the same time in every direction; with a box of joint
+// limits what is allowed along a direction changes by √2 at most, and a time from rest to rest by
+// its square root at most.
+TEST(Trap, TheDirectionOfAPathCountsNoMoreThanTheLimitsSay) {
+  const auto turned = [](double degrees, bool jerk) {
+    const auto machine = jerk ? identity_machine("XY", {{200, 1000, 20000}, {200, 1000, 20000}})
+                              : identity_machine("XY", {{200, 1e6}, {200, 1e6}});
+    if (!jerk) machine->tip_acceleration_ = 1000;
+    const auto at = [&](double x, double y) {
+      const double c = std::cos(degrees * rad), s = std::sin(degrees * rad);
+      return xyz(c * x - s * y, s * x + c * y, 0);
+    };
+    Program program;
+    program.feed(50).blend(0.05);
+    for (int i = 0; i < 5; ++i) program.line(at(4 * i + 4, 4 * i)).line(at(4 * i + 4, 4 * i + 4));
+    return plan_program(*machine, zeros(*machine), program).time();
+  };
+  for (const double degrees : {10.0, 22.5, 30.0, 45.0}) {
+    EXPECT_NEAR(turned(degrees, false), turned(0, false), 0.005 * turned(0, false)) << degrees;
+    EXPECT_NEAR(turned(degrees, true), turned(0, true), 0.19 * turned(0, true)) << degrees;
+  }
+}
+
 TEST(JerkLimit, MoreOfAnyLimitIsHardlySlower) {
   const auto base = jerky();
   const double t = wave_time(*base, wave(60, 1));
