@@ -248,6 +248,16 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       ->add_option("--see-through", run.see_through,
                    "a body that pictures show translucent, such as a cover (repeatable)")
       ->type_name("BODY");
+  c_run
+      ->add_option("--stock-colors", run.stock_colors,
+                   "plain, or tool: what each tool has cut in a colour of its own (milling)")
+      ->check(CLI::IsMember({"plain", "tool"}).description(""))
+      ->type_name("plain|tool");
+  c_run
+      ->add_option("--path-colors", run.path_colors,
+                   "of the tool path in pictures: by kind (rapid, feed, done), by time, or none")
+      ->check(CLI::IsMember({"kind", "time", "none"}).description(""))
+      ->type_name("kind|time|none");
   c_run->add_option("--size", size, "picture size (default 1280x800)")->type_name("WxH");
   c_run
       ->add_option("--motion", run.motion,

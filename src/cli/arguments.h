@@ -59,6 +59,8 @@ struct RunArguments {
   std::string camera = "work";
   std::string section;                           ///< --section AXIS=MM; empty: none
   std::vector<std::string> hidden, see_through;  ///< bodies, by name or NAME*
+  std::string stock_colors = "plain";            ///< or tool
+  std::string path_colors = "kind";              ///< or time, none
   int width = 1280, height = 800;
   std::vector<std::string> motion;  ///< forms of the animation
   std::optional<double> max_time;

@@ -229,6 +229,11 @@ Expected<report::FrameOptions> frame_options(const RunArguments& a) {
   options.video = wants_motion(a, "mp4");
   options.hidden = a.hidden;
   options.see_through = a.see_through;
+  options.stock_by_tool = a.stock_colors == "tool";
+  using Path = report::FrameOptions::Path;
+  options.path = a.path_colors == "none"   ? Path::none
+                 : a.path_colors == "time" ? Path::time
+                                           : Path::kind;
   if (!a.section.empty()) {
     const auto section = report::section_of(a.section);
     if (!section) return unexpected(section.error());
@@ -286,6 +291,12 @@ int run_command(const RunArguments& a) {
     return fail(
         make_error("usage", std::string(a.save_stock.empty() ? "--part" : "--save-stock") +
                                 " needs a stock: name a set-up with [stock], --setup FILE"));
+  if (frames->stock_by_tool && (!job.machine->stock() || sim::turns_the_work(*job.machine)))
+    return fail(make_error("usage", job.machine->stock()
+                                        ? "--stock-colors tool is for a milled stock: of a turned "
+                                          "one it is not known which tool made what"
+                                        : "--stock-colors tool needs a stock: name a set-up with "
+                                          "[stock], --setup FILE"));
   if (asked_for(a.checks).cut)
     if (auto fits = sim::stock_fits(*job.machine); !fits) {
       fits.error().notes.push_back({"help", "say so in [stock] of " + printable(a.program.setup) +

@@ -157,37 +157,45 @@ void draw_sample(Image& image, LineKind kind, double x, double y, double width,
   stroke(0.82, 1);
 }
 
-// What the colours of the lines mean, for those that occur; left of `limit`, or above it.
+// What the colours mean: of the kinds of lines that occur, and the scene's own rows; left of
+// `limit`, or above it.
 void draw_legend(Image& image, const Scene& scene, const Fonts& fonts, const Layout& layout,
                  double limit) {
   struct Row {
     LineKind kind;
-    const char* text;
+    std::string text;
+    std::optional<machine::Color> color = {};
   };
-  constexpr std::array<Row, 4> rows = {{{LineKind::rapid, "rapid"},
-                                        {LineKind::feed, "feed"},
-                                        {LineKind::arc, "arc"},
-                                        {LineKind::done, "done"}}};
+  const std::array<Row, 4> kinds = {{{LineKind::rapid, "rapid"},
+                                     {LineKind::feed, "feed"},
+                                     {LineKind::arc, "arc"},
+                                     {LineKind::done, "done"}}};
   const int small = small_text(layout);
-  const double sample = layout.px(26), gap = layout.px(7), space = layout.px(16);
+  const double sample = layout.px(26), patch = layout.px(12), gap = layout.px(7);
+  const double space = layout.px(16);
   std::vector<Row> used;
-  double width = -space;
-  for (const Row& row : rows)
+  for (const Row& row : kinds)
     if (std::any_of(scene.lines.begin(), scene.lines.end(), [&](const DrawLine& line) {
-          return line.kind == row.kind && line.points.size() > 1;
-        })) {
+          return line.kind == row.kind && !line.color && line.points.size() > 1;
+        }))
       used.push_back(row);
-      width += sample + gap + fonts.width(row.text, Face::sans, small) + space;
-    }
+  for (const LegendRow& row : scene.legend) used.push_back({LineKind::feed, row.text, row.color});
   if (used.empty()) return;
+  double width = -space;
+  for (const Row& row : used)
+    width += (row.color ? patch : sample) + gap + fonts.width(row.text, Face::sans, small) + space;
   const double inset = layout.px(strip_inset);
   double x = layout.px(scene.triad ? triad_room + 8 : 16) + inset;
   const double raised = x + width + 2 * inset > limit ? layout.px(strip_height + 6) : 0;
   const double base = strip_base(image, layout, raised);
   draw_strip(image, x - inset, width + 2 * inset, layout, raised);
   for (const Row& row : used) {
-    draw_sample(image, row.kind, x, base - small * 0.36, sample, layout);
-    x += sample + gap;
+    if (row.color)
+      fill_round_rect(image, {x, base - patch * 0.85, patch, patch}, layout.px(2),
+                      {row.color->r, row.color->g, row.color->b, 1});
+    else
+      draw_sample(image, row.kind, x, base - small * 0.36, sample, layout);
+    x += (row.color ? patch : sample) + gap;
     x += fonts.draw(image, x, base, row.text, Face::sans, small, dark) + space;
   }
 }

@@ -65,6 +65,12 @@ std::array<float, 3> path_colour(LineKind kind) {
   return {};
 }
 
+std::array<float, 3> path_colour(const DrawLine& line) {
+  if (!line.color) return path_colour(line.kind);
+  const auto share = [](unsigned char v) { return static_cast<float>(v) / 255; };
+  return {share(line.color->r), share(line.color->g), share(line.color->b)};
+}
+
 std::vector<LineVertex> path_lines(const std::vector<DrawLine>& lines, const Vec3& centre,
                                    double mm_per_pixel) {
   std::vector<LineVertex> out;
@@ -72,7 +78,7 @@ std::vector<LineVertex> path_lines(const std::vector<DrawLine>& lines, const Vec
     if (!std::all_of(line.points.begin(), line.points.end(),
                      [](const Vec3& p) { return p.allFinite(); }))
       continue;
-    const Emitter emit(out, centre, path_colour(line.kind));
+    const Emitter emit(out, centre, path_colour(line));
     const double period =
         std::max({period_pixels * mm_per_pixel, length(line.points) / most_dashes, 1e-6});
     double at = 0;

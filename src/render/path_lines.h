@@ -11,6 +11,7 @@ namespace aircut::render {
 
 /// Display colour of a kind of line.
 std::array<float, 3> path_colour(LineKind kind);
+std::array<float, 3> path_colour(const DrawLine& line);
 /// All lines of a scene in the render frame (world minus `centre`); rapids are dashed with a period
 /// that fits `mm_per_pixel`.
 std::vector<LineVertex> path_lines(const std::vector<DrawLine>& lines, const Vec3& centre,

@@ -34,8 +34,9 @@ struct DrawBody {
 
 enum class LineKind : unsigned char { rapid, feed, arc, done };
 struct DrawLine {
-  LineKind kind = LineKind::feed;
-  std::vector<Vec3> points;  ///< world, mm
+  LineKind kind = LineKind::feed;            ///< rapids are dashed
+  std::vector<Vec3> points;                  ///< world, mm
+  std::optional<machine::Color> color = {};  ///< in place of the kind's
 };
 
 struct DrawMarker {
@@ -64,6 +65,12 @@ struct Caption {
   std::string alarm;               ///< shown in red when not empty
 };
 
+/// What a colour means.
+struct LegendRow {
+  std::string text;
+  machine::Color color;
+};
+
 /// What lies on the side of `normal` is cut away; closed bodies are shown as full there.
 struct Section {
   Vec3 point = Vec3::Zero();    ///< world, mm
@@ -75,6 +82,7 @@ struct Scene {
   std::vector<DrawLine> lines;
   std::vector<DrawMarker> markers;
   Caption caption;
+  std::vector<LegendRow> legend;  ///< besides the kinds of lines
   std::optional<Section> section;
   bool floor = true;
   bool triad = true;

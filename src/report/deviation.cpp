@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/mesh_part.h"
+
 namespace aircut::report {
 
 namespace {
@@ -64,23 +66,11 @@ Expected<render::Image> deviation_picture(const TriangleMesh& mesh,
                                           const std::vector<double>& outside,
                                           const DeviationScale& scale, render::FrameSize size) {
   constexpr std::size_t steps = DeviationScale::steps;
-  std::array<TriangleMesh, steps> parts;
-  std::array<std::vector<std::uint32_t>, steps> number;  // of a vertex in the part, plus 1
-  for (auto& list : number) list.assign(mesh.vertices.size(), 0);
-  for (const auto& t : mesh.triangles) {
-    const auto step = static_cast<std::size_t>(
-        scale.step_of((outside[t[0]] + outside[t[1]] + outside[t[2]]) / 3));
-    std::array<std::uint32_t, 3> corners{};
-    for (std::size_t c = 0; c < 3; ++c) {
-      std::uint32_t& known = number[step][t[c]];
-      if (known == 0) {
-        parts[step].vertices.push_back(mesh.vertices[t[c]]);
-        known = static_cast<std::uint32_t>(parts[step].vertices.size());
-      }
-      corners[c] = known - 1;
-    }
-    parts[step].triangles.push_back(corners);
-  }
+  std::array<std::vector<std::array<std::uint32_t, 3>>, steps> triangles;
+  for (const auto& t : mesh.triangles)
+    triangles[static_cast<std::size_t>(
+                  scale.step_of((outside[t[0]] + outside[t[1]] + outside[t[2]]) / 3))]
+        .push_back(t);
   auto renderer = render::Renderer::create(size);
   if (!renderer) return unexpected(renderer.error());
   render::Scene scene;
@@ -88,12 +78,13 @@ Expected<render::Image> deviation_picture(const TriangleMesh& mesh,
   scene.caption.left.push_back("deviation from the part, mm (below 0: into it)");
   Box3 box;
   for (std::size_t step = 0; step < steps; ++step) {
-    if (parts[step].empty()) continue;
+    if (triangles[step].empty()) continue;
+    TriangleMesh part = part_of(mesh, triangles[step]);
     const auto color = DeviationScale::color_of(static_cast<int>(step));
     scene.caption.right.push_back(scale.text_of(static_cast<int>(step)));
-    box.extend(bounds(parts[step]));
+    box.extend(bounds(part));
     scene.bodies.push_back({.name = "deviation",
-                            .mesh = std::make_shared<TriangleMesh>(std::move(parts[step])),
+                            .mesh = std::make_shared<TriangleMesh>(std::move(part)),
                             .color = {color[0], color[1], color[2]}});
   }
   const auto camera =

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -68,6 +69,21 @@ bool matches(const std::string& pattern, const std::string& name) {
 bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
   return std::any_of(patterns.begin(), patterns.end(),
                      [&](const std::string& p) { return matches(p, name); });
+}
+
+// Tools that follow one another differ clearly.
+machine::Color tool_color(int number) {
+  static constexpr std::array<machine::Color, 10> colors = {{{92, 158, 214},
+                                                             {240, 160, 70},
+                                                             {120, 186, 110},
+                                                             {214, 104, 104},
+                                                             {160, 134, 200},
+                                                             {90, 190, 190},
+                                                             {226, 150, 190},
+                                                             {176, 176, 90},
+                                                             {150, 120, 96},
+                                                             {130, 146, 166}}};
+  return colors[static_cast<std::size_t>(std::max(number - 1, 0)) % colors.size()];
 }
 
 }  // namespace
@@ -250,27 +266,58 @@ struct FrameMaker::Impl {
            scene.machine().X_LM();
   }
 
+  // The stock as it is at time t, in place of the raw one.
+  Expected<void> put_stock(render::Scene& drawn, double t) {
+    if (!stock) return {};
+    for (std::size_t i = 0, k = 0; i < scene.bodies().size(); ++i) {
+      const machine::Body& body = scene.bodies()[i].body;
+      if (!body.mesh) continue;
+      if (body.role == machine::Role::stock) {
+        if (options.stock_by_tool) return put_stock_by_tool(drawn, k, t);
+        auto mesh = stock->at(t);
+        if (!mesh) return unexpected(mesh.error());
+        drawn.bodies[k].mesh = std::move(*mesh);
+      }
+      ++k;
+    }
+    return {};
+  }
+
+  Expected<void> put_stock_by_tool(render::Scene& drawn, std::size_t body, double t) {
+    const auto pieces = stock->by_tool(t);
+    if (!pieces) return unexpected(pieces.error());
+    // The raw surface stays in the stock's place: bodies are found by their numbers.
+    drawn.bodies[body].mesh = std::make_shared<TriangleMesh>();
+    for (const auto& piece : *pieces) {
+      if (piece.tool == 0) {
+        drawn.bodies[body].mesh = piece.mesh;
+        continue;
+      }
+      render::DrawBody one = drawn.bodies[body];
+      one.mesh = piece.mesh;
+      one.color = tool_color(piece.tool);
+      drawn.bodies.push_back(std::move(one));
+      drawn.legend.push_back({"T" + std::to_string(piece.tool), tool_color(piece.tool)});
+    }
+    return {};
+  }
+
   Expected<render::Scene> picture(const Snapshot& shot) {
     if (scene.loaded_tool() != shot.tool) scene.load_tool(shot.tool);
     render::Scene out;
     out.bodies = draw_bodies(scene, shot.joints);
-    if (stock)
-      for (std::size_t i = 0, k = 0; i < scene.bodies().size(); ++i) {
-        const machine::Body& body = scene.bodies()[i].body;
-        if (!body.mesh) continue;
-        if (body.role == machine::Role::stock) {
-          auto mesh = stock->at(shot.t);
-          if (!mesh) return unexpected(mesh.error());
-          out.bodies[k].mesh = std::move(*mesh);
-        }
-        ++k;
-      }
+    if (auto put = put_stock(out, shot.t); !put) return unexpected(put.error());
     std::erase_if(out.bodies, [&](const render::DrawBody& body) {
       return matches_any(options.hidden, body.name);
     });
     for (render::DrawBody& body : out.bodies)
       body.translucent = matches_any(options.see_through, body.name);
-    out.lines = path.lines(X_WM(shot.joints), shot.t);
+    if (options.path == FrameOptions::Path::kind) out.lines = path.lines(X_WM(shot.joints), shot.t);
+    if (options.path == FrameOptions::Path::time) {
+      out.lines = path.lines_by_time(X_WM(shot.joints));
+      const auto rows = path.legend_of_times();
+      out.legend.insert(out.legend.end(), rows.begin(), rows.end());
+    }
     out.caption.left.push_back(printable(options.program));
     if (shot.span)
       out.caption.left.push_back("line " + std::to_string(shot.span.line) + "   " +

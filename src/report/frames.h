@@ -43,6 +43,8 @@ struct FrameOptions {
   std::optional<Section> section;
   /// Bodies not drawn, and drawn translucent: names, or their beginning and a `*`.
   std::vector<std::string> hidden, see_through;
+  bool stock_by_tool = false;  ///< every tool's surfaces in a colour of their own
+  enum class Path : unsigned char { kind, time, none } path = Path::kind;  ///< colours of it
 };
 
 /// `X=12.5`, `Y=…` or `Z=…`. Error kind `usage`.

@@ -1,6 +1,7 @@
 #include "report/path_recorder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace aircut::report {
@@ -14,6 +15,23 @@ render::LineKind line_kind(plan::MotionKind kind) {
   if (kind == plan::MotionKind::rapid) return render::LineKind::rapid;
   if (kind == plan::MotionKind::arc) return render::LineKind::arc;
   return render::LineKind::feed;
+}
+
+constexpr int time_steps = 48;
+
+// A ramp that grows evenly lighter, so that it also reads in grey: violet, blue, teal, green,
+// yellow.
+machine::Color color_at(double share) {
+  static constexpr std::array<std::array<int, 3>, 5> stops = {
+      {{70, 20, 92}, {58, 82, 150}, {32, 145, 141}, {96, 200, 98}, {245, 222, 50}}};
+  const double at = std::clamp(share, 0., 1.) * (stops.size() - 1);
+  const auto i = std::min<std::size_t>(static_cast<std::size_t>(at), stops.size() - 2);
+  const double f = at - static_cast<double>(i);
+  const auto mix = [&](std::size_t k) {
+    return static_cast<unsigned char>(
+        std::lround(stops[i][k] + f * (stops[i + 1][k] - stops[i][k])));
+  };
+  return {mix(0), mix(1), mix(2)};
 }
 
 }  // namespace
@@ -54,6 +72,30 @@ std::vector<render::DrawLine> PathRecorder::lines(const Pose& X_WM, double now) 
     if (out.empty() || out.back().kind != kind) out.push_back({kind, {X_WM * points_[i - 1].p}});
     out.back().points.push_back(X_WM * points_[i].p);
   }
+  return out;
+}
+
+std::vector<render::DrawLine> PathRecorder::lines_by_time(const Pose& X_WM) const {
+  std::vector<render::DrawLine> out;
+  const double end = points_.empty() ? 0 : points_.back().t;
+  int last = -1;
+  for (std::size_t i = 1; i < points_.size(); ++i) {
+    const int step =
+        end > 0 ? std::min(time_steps - 1, static_cast<int>(points_[i].t / end * time_steps)) : 0;
+    const render::LineKind kind = line_kind(points_[i].kind);
+    if (step != last || out.back().kind != kind)
+      out.push_back({kind, {X_WM * points_[i - 1].p}, color_at(step / (time_steps - 1.))});
+    last = step;
+    out.back().points.push_back(X_WM * points_[i].p);
+  }
+  return out;
+}
+
+std::vector<render::LegendRow> PathRecorder::legend_of_times() const {
+  std::vector<render::LegendRow> out;
+  const double end = points_.empty() ? 0 : points_.back().t;
+  for (const double share : {0., 0.25, 0.5, 0.75, 1.})
+    out.push_back({fixed(share * end, end < 10 ? 1 : 0) + " s", color_at(share)});
   return out;
 }
 

@@ -14,6 +14,10 @@ class PathRecorder {
   void add(const sim::Step& step);
   /// Runs of one kind in world coordinates, split at time `now` into done and to come.
   std::vector<render::DrawLine> lines(const Pose& X_WM, double now) const;
+  /// The same in colours of the time at which they are gone, from violet to yellow.
+  std::vector<render::DrawLine> lines_by_time(const Pose& X_WM) const;
+  /// What these colours mean.
+  std::vector<render::LegendRow> legend_of_times() const;
   /// Of the feed moves, world; of all moves when there are none.
   Box3 box(const Pose& X_WM) const;
 

@@ -248,6 +248,15 @@ class StockHistory {
   /// Its surface at program time t, in the frame of the stock's body. Times must not go back.
   /// Errors: `output_failed`, or what Stock::cut says.
   virtual Expected<std::shared_ptr<const TriangleMesh>> at(double t) = 0;
+
+  /// Pieces of the surface, each made by one tool; 0: as it came to the machine.
+  struct MadeBy {
+    int tool = 0;
+    std::shared_ptr<const TriangleMesh> mesh;
+  };
+  /// The surface at program time t by the tools that made it, by number; for one history either
+  /// this or at(). Empty where it is not known: a turned stock.
+  virtual Expected<std::vector<MadeBy>> by_tool(double) { return std::vector<MadeBy>{}; }
 };
 
 /// Looks at everything and writes it down.
@@ -370,6 +379,9 @@ class Simulator {
   std::vector<Finding> inputs_;  ///< of M66 that only count when a program looks at the result
   std::optional<ProbeResult> probing_;  ///< of the probing move that comes next
 };
+
+/// Whether the machine's spindle turns the work and not the tool.
+bool turns_the_work(const machine::Machine& machine);
 
 /// Whether the machine's stock fits into memory on its lattice; the error `stock_memory` names the
 /// finest pitch that does.

@@ -44,6 +44,9 @@ TEST_F(Pictures, AreRefusedBeforeTheRunWhenTheyCannotBeMade) {
       {"--section X=", "write X, Y or Z"},
       {"--hide colum", "no such body"},
       {"--see-through 'dor*'", "no such body"},
+      {"--stock-colors tool", "needs a stock"},
+      {"--stock-colors red", "plain"},
+      {"--path-colors red", "time"},
       {"--camera nowhere", "there is no camera"},
       {"--size 0x0", "from 16 to 8192"},
       {"--frames none --motion mp4", "show the frames"},
@@ -65,8 +68,11 @@ TEST_F(Pictures, CanBeCutOpenAndLackBodies) {
   const std::string plain = picture("");
   const std::string cut = picture("--section X=0"), through = picture("--see-through 'vise*'");
   const std::string follows = picture("--hide 'vise*' --camera tool");
+  const std::string by_time = picture("--path-colors time"), bare = picture("--path-colors none");
   ASSERT_GT(plain.size(), 1000u);
-  for (const std::string* other : {&cut, &through, &follows}) EXPECT_NE(*other, plain);
+  for (const std::string* other : {&cut, &through, &follows, &by_time, &bare})
+    EXPECT_NE(*other, plain);
+  EXPECT_NE(by_time, bare);
   EXPECT_NE(through, follows);
 }
 

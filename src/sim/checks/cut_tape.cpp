@@ -1,12 +1,17 @@
 #include "sim/checks/cut_tape.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
+#include "geometry/mesh_part.h"
 #include "sim/checks/turning.h"
 
 namespace aircut::sim {
@@ -24,12 +29,13 @@ Diagnostic disk_error(const char* what) {
                     std::string(what) + " for the pictures of the stock: " + std::strerror(errno));
 }
 
-using Cutters = std::vector<std::unique_ptr<stock::CutterProfile>>;
+using Cutters = std::vector<CutTape::Cutter>;
 
 Vec3 vec(const double* v) { return {v[0], v[1], v[2]}; }
 
 stock::Piece piece_of(const Record& record, const Cutters& cutters) {
-  return {cutters[record.cutter].get(), vec(record.start), vec(record.end), vec(record.axis), 0};
+  return {cutters[record.cutter].profile.get(), vec(record.start), vec(record.end),
+          vec(record.axis), 0};
 }
 
 // Puts pieces that follow one another into one where the straight way past all their ends is no
@@ -87,29 +93,91 @@ class Player final : public StockHistory {
   }
 
   Expected<std::shared_ptr<const TriangleMesh>> at(double t) override {
-    std::vector<stock::Piece> pieces;
     bool changed = !mesh_;
-    const auto cut = [&]() -> Expected<void> {
-      if (pieces.empty()) return {};
-      changed = true;
-      if (auto done = stock_.cut(pieces); !done) return unexpected(done.error());
-      pieces.clear();
-      return {};
-    };
     while (more_ && next_.t <= t) {
-      if (const auto piece = joiner_.add(piece_of(next_, *cutters_))) pieces.push_back(*piece);
-      if (pieces.size() == 4096)
-        if (auto done = cut(); !done) return unexpected(done.error());
-      more_ = read();
+      if (auto done = cut_until(t, std::nullopt); !done) return unexpected(done.error());
+      changed = true;
     }
-    if (std::ferror(file_.get()) != 0) return unexpected(disk_error("can't read a temporary file"));
-    if (const auto piece = joiner_.rest()) pieces.push_back(*piece);
-    if (auto done = cut(); !done) return unexpected(done.error());
+    if (auto read = read_error(); !read) return unexpected(read.error());
     if (changed) mesh_ = std::make_shared<TriangleMesh>(stock_.mesh());
     return mesh_;
   }
 
+  // A vertex of the lattice's mesh depends on its own cell alone: as long as nothing is taken there
+  // it stays where it is, to the last bit. So whatever a tool leaves where it was, an earlier one
+  // has made.
+  Expected<std::vector<MadeBy>> by_tool(double t) override {
+    if (tools_.empty()) look_at_new_places(0);
+    while (more_ && next_.t <= t) {
+      const int tool = tool_of(next_);
+      if (auto done = cut_until(t, tool); !done) return unexpected(done.error());
+      look_at_new_places(tool);
+    }
+    if (auto read = read_error(); !read) return unexpected(read.error());
+    return pieces_by_tool();
+  }
+
  private:
+  struct BitsOf {
+    std::size_t operator()(const std::array<double, 3>& p) const {
+      std::size_t out = 0;
+      for (const double v : p)
+        out = (out ^ std::bit_cast<std::uint64_t>(v)) * 0x9e3779b97f4a7c15 ^ (out >> 29);
+      return out;
+    }
+  };
+  using Places = std::unordered_map<std::array<double, 3>, std::uint32_t, BitsOf>;
+  static std::array<double, 3> place_of(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+  int tool_of(const Record& record) const { return (*cutters_)[record.cutter].tool; }
+
+  // Up to time t; with `tool` no farther than the pieces that it cut.
+  Expected<void> cut_until(double t, std::optional<int> tool) {
+    std::vector<stock::Piece> pieces;
+    while (more_ && next_.t <= t && (!tool || tool_of(next_) == *tool)) {
+      if (const auto piece = joiner_.add(piece_of(next_, *cutters_))) pieces.push_back(*piece);
+      more_ = read();
+      if (pieces.size() < 4096) continue;
+      if (auto done = stock_.cut(pieces); !done) return unexpected(done.error());
+      pieces.clear();
+    }
+    if (const auto piece = joiner_.rest()) pieces.push_back(*piece);
+    if (pieces.empty()) return {};
+    if (auto done = stock_.cut(pieces); !done) return unexpected(done.error());
+    return {};
+  }
+
+  void look_at_new_places(int tool) {
+    surface_ = stock_.mesh(stock::Facets::lattice);
+    const auto turn = static_cast<std::uint32_t>(tools_.size());
+    tools_.push_back(tool);
+    Places now;
+    now.reserve(surface_.vertices.size());
+    for (const Vec3& v : surface_.vertices) {
+      const auto known = made_in_.find(place_of(v));
+      now.emplace(place_of(v), known == made_in_.end() ? turn : known->second);
+    }
+    made_in_ = std::move(now);
+  }
+
+  // A triangle across an edge belongs to the older of the two surfaces.
+  std::vector<MadeBy> pieces_by_tool() const {
+    std::map<int, std::vector<std::array<std::uint32_t, 3>>> triangles;
+    const auto turn = [&](std::uint32_t vertex) {
+      return made_in_.at(place_of(surface_.vertices[vertex]));
+    };
+    for (const auto& t : surface_.triangles)
+      triangles[tools_[std::min({turn(t[0]), turn(t[1]), turn(t[2])})]].push_back(t);
+    std::vector<MadeBy> out;
+    for (const auto& [tool, list] : triangles)
+      out.push_back({tool, std::make_shared<TriangleMesh>(part_of(surface_, list))});
+    return out;
+  }
+
+  Expected<void> read_error() const {
+    if (std::ferror(file_.get()) == 0) return {};
+    return unexpected(disk_error("can't read a temporary file"));
+  }
   bool read() { return std::fread(&next_, sizeof next_, 1, file_.get()) == 1; }
 
   std::shared_ptr<std::FILE> file_;
@@ -119,6 +187,9 @@ class Player final : public StockHistory {
   Record next_{};
   bool more_ = false;
   std::shared_ptr<const TriangleMesh> mesh_;
+  TriangleMesh surface_;    ///< for by_tool()
+  std::vector<int> tools_;  ///< one after the other; first 0
+  Places made_in_;          ///< index into tools_
 };
 
 double longest_side(const machine::RawStock& raw) { return bounds(*raw.mesh).sizes().maxCoeff(); }
@@ -175,9 +246,9 @@ Expected<CutTape> CutTape::make() {
   return tape;
 }
 
-const stock::CutterProfile* CutTape::keep(const stock::CutterProfile& cutter) {
-  cutters_->push_back(std::make_unique<stock::CutterProfile>(cutter));
-  return cutters_->back().get();
+const stock::CutterProfile* CutTape::keep(const stock::CutterProfile& cutter, int tool) {
+  cutters_->push_back({std::make_unique<stock::CutterProfile>(cutter), tool});
+  return cutters_->back().profile.get();
 }
 
 Expected<void> CutTape::add(const stock::Piece& piece, double t) {
@@ -188,8 +259,9 @@ Expected<void> CutTape::add(const stock::Piece& piece, double t) {
     record.end[i] = piece.end[i];
     record.axis[i] = piece.axis[i];
   }
-  const auto at = std::find_if(cutters_->rbegin(), cutters_->rend(),
-                               [&](const auto& cutter) { return cutter.get() == piece.cutter; });
+  const auto at = std::find_if(cutters_->rbegin(), cutters_->rend(), [&](const auto& cutter) {
+    return cutter.profile.get() == piece.cutter;
+  });
   record.cutter = static_cast<std::uint64_t>(cutters_->rend() - at - 1);
   if (std::fwrite(&record, sizeof record, 1, file_.get()) == 1) return {};
   return unexpected(disk_error("can't write a temporary file"));

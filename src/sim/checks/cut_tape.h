@@ -19,11 +19,15 @@ double default_pitch(const machine::RawStock& raw);
 
 class CutTape {
  public:
+  struct Cutter {
+    std::unique_ptr<stock::CutterProfile> profile;
+    int tool = 0;  ///< its number
+  };
   /// Error kind `output_failed`: there is no place for a temporary file.
   static Expected<CutTape> make();
 
   /// The cutters that the next pieces point to; valid until the tape is gone.
-  const stock::CutterProfile* keep(const stock::CutterProfile& cutter);
+  const stock::CutterProfile* keep(const stock::CutterProfile& cutter, int tool);
   /// `cutter` is a pointer that keep() gave. Error kind `output_failed`.
   Expected<void> add(const stock::Piece& piece, double t);
   /// The stock, on a lattice of this pitch, after the first `pieces` of the tape.
@@ -34,7 +38,7 @@ class CutTape {
 
  private:
   std::shared_ptr<std::FILE> file_;
-  std::shared_ptr<std::vector<std::unique_ptr<stock::CutterProfile>>> cutters_;
+  std::shared_ptr<std::vector<Cutter>> cutters_;
 };
 
 }  // namespace aircut::sim

@@ -110,6 +110,7 @@ void CuttingCheck::read_tool(const Scene& scene) {
   reach_ = cutter_reach_ = {};
   const tool::Tool* tool = scene.tool();
   no_tool_ = tool == nullptr;
+  tool_number_ = scene.loaded_tool();
   tool_known_ = no_tool_ || !tool->pieces.empty();
   engagement_.read_tool(nullptr, 0, 0);
   if (no_tool_) {
@@ -222,7 +223,7 @@ void CuttingCheck::flush() {
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     stock::Piece piece = batch_[i];
     const stock::CutterProfile*& kept = taped_[piece.cutter];
-    if (!kept) kept = tape_->keep(*piece.cutter);
+    if (!kept) kept = tape_->keep(*piece.cutter, tool_number_);
     piece.cutter = kept;
     if (auto added = tape_->add(piece, batch_times_[i][1]); !added)
       return give_up(added.error().message);

@@ -99,6 +99,7 @@ class CuttingCheck final : public Check {
   std::vector<Solid> cutters_, others_;
   std::map<const stock::CutterProfile*, const stock::CutterProfile*> taped_;  ///< of cutters_
   bool tool_known_ = true;  ///< its solids are known, or there is none
+  int tool_number_ = 0;
   bool center_cutting_ = true, left_hand_ = false, no_tool_ = true;
   Reach reach_, cutter_reach_;          ///< of the whole tool, of what cuts
   std::vector<const Solid*> doubtful_;  ///< of others_: not clear of the stock over the whole step

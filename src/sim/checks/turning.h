@@ -92,7 +92,4 @@ class TurningCheck final : public Check {
   bool told_ = false;
 };
 
-/// Whether the machine's spindle turns the work and not the tool.
-bool turns_the_work(const machine::Machine& machine);
-
 }  // namespace aircut::sim
