@@ -92,8 +92,27 @@ std::vector<KindText> all_kinds() {
   return out;
 }
 
+namespace {
+
+/// Names that people know for what a message of another kind tells.
+struct OtherName {
+  const char *name, *kind, *which;
+};
+constexpr OtherName other_names[] = {
+    {"noncutting_contact", "collision", "of the pair shank-stock or holder-stock"},
+    {"workholding_cut", "collision", "of the pair cutter-fixture"},
+};
+
+}  // namespace
+
 int explain_command(const ExplainArguments& a) {
   const std::vector<KindText> kinds = all_kinds();
+  std::string kind = a.kind;
+  for (const OtherName& other : other_names)
+    if (kind == other.name) {
+      std::printf("%s is told as %s %s.\n", other.name, other.kind, other.which);
+      kind = other.kind;
+    }
   if (a.list) {
     for (const KindText& row : kinds) std::printf("%-26s %s\n", row.kind, row.title);
     return code(ExitCode::pass);
@@ -101,7 +120,7 @@ int explain_command(const ExplainArguments& a) {
   std::vector<std::string> names;
   for (const KindText& row : kinds) {
     names.push_back(row.kind);
-    if (a.kind != row.kind) continue;
+    if (kind != row.kind) continue;
     std::printf("%s: %s\n\n%s\n", row.kind, row.title, row.text);
     return code(ExitCode::pass);
   }
