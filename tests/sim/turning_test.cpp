@@ -108,12 +108,33 @@ TEST_F(Turning, ComparesTheResultWithThePart) {
   const RunResult thin = run(step("14.9", "-130"), "T1 M6 G43 H1\n", "cylinder", shaft);
   EXPECT_EQ(thin.verdict, Verdict::fail);
   EXPECT_GE(thin.count(Kind::gouge), 1);
+  // The line that went too deep is told, also with what is found in the end.
+  const Finding& live = thin.only(Kind::gouge_live);
+  EXPECT_EQ(live.span.line, 7u);
+  EXPECT_NEAR(*live.depth, 0.1, 0.01);
+  EXPECT_EQ(live.body_a, "T1/cutter");
+  for (const Finding& f : thin.findings)
+    if (f.kind == Kind::gouge) {
+      EXPECT_EQ(f.span.line, 7u);
+    }
   EXPECT_NEAR(thin.summary.part->gouge, 0.1, 0.01);
   const RunResult lengthy = run(step("15", "-129"), "T1 M6 G43 H1\n", "cylinder", shaft);
   EXPECT_EQ(lengthy.count(Kind::gouge), 0);
   EXPECT_GE(lengthy.count(Kind::excess), 1);
   EXPECT_NEAR(lengthy.summary.part->excess, 1, 0.01);
   EXPECT_EQ(lengthy.verdict, Verdict::pass);
+}
+
+TEST_F(Turning, TellsAGougeOfAnInsertOnceAndNotWithinTheTolerance) {
+  const Profile shaft = {{0, 0}, {20, 0}, {20, 30}, {15, 30}, {15, 60}, {0, 60}};
+  const auto passes = [&](const std::string& x, int times) {
+    std::string text;
+    for (int i = 0; i < times; ++i) text += "G0 Z-95\nG0 X" + x + "\nG1 Z-128\nG0 X30\n";
+    return run(text + "G0 Z-50\n", "T2 M6 G43 H2\n", "cylinder", shaft);
+  };
+  EXPECT_EQ(passes("14.985", 1).count(Kind::gouge_live), 0);
+  // The second pass takes nothing more.
+  EXPECT_EQ(passes("14.9", 2).count(Kind::gouge_live), 1);
 }
 
 TEST_F(Turning, TurnsATaper) {

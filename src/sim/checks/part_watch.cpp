@@ -64,8 +64,12 @@ Expected<stock::Touch> PartWatch::depth(const stock::Piece& piece) const {
 
 Expected<void> PartWatch::take(const stock::Piece& piece, const Finding& row,
                                const stock::Touch& touch) {
-  if (cuts_.size() < most_cuts) cuts_.push_back({row, touch});
+  note(row, touch);
   return part_.take(piece, touch.depth);
+}
+
+void PartWatch::note(const Finding& row, const stock::Touch& touch) {
+  if (cuts_.size() < most_cuts) cuts_.push_back({row, touch});
 }
 
 // The deepest place that a piece made lies in or at the spot that it belongs to; of several, the

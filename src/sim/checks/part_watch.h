@@ -30,6 +30,9 @@ class PartWatch {
   /// Takes it off the part; `row` tells of it.
   Expected<void> take(const stock::Piece& piece, const Finding& row, const stock::Touch& touch);
 
+  /// The same where what was taken is known otherwise (turning).
+  void note(const Finding& row, const stock::Touch& touch);
+
   /// Compares the result; `end` has the fields of rows without a line. X_WS: the stock's frame.
   template <class Material>
   Summary::Part compare(const Material& stock, const Pose& X_WS, const Finding& end,

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <numbers>
 
 #include "sim/checks/cut_tape.h"
 #include "sim/checks/pairs.h"
@@ -305,10 +306,21 @@ stock::TurningSection TurningCheck::swept(const Solid& solid, const tool::Block&
 
 double TurningCheck::cut(const Step& step, const Solid& solid, const StraightMove& move) {
   double volume = 0;
+  // A hair below a surface is what an earlier move left there.
+  const std::function<bool(double, double)> still_there = [this](double r, double z) {
+    for (const auto& [low, high] : stock_->radii_at(z))
+      if (r > low - 1e-3 && r < high - 1e-3) return true;
+    return false;
+  };
   for (const stock::TurningSection& section : solid.sections) {
     const stock::TurningMove here = in_plane(section, move);
+    std::optional<TurningGouge> gouge;
+    if (watch_ && stock_->touch(here).depth > 0)
+      gouge = deepest_in_part(here, *watch_->part(), {raw_->diameter / 2, raw_->height},
+                              watch_->design().gouge, watch_->bound(), still_there);
     const double taken = stock_->cut(here);
     volume += taken;
+    if (gouge && taken > 0) tell_gouge(step, solid, move, *gouge, taken);
     if (taken > 0 && tape_ && !tape_->add(here, time_at(step, move.s1)))
       give_up(disk_error("can't write a temporary file").message);
   }
@@ -316,6 +328,29 @@ double TurningCheck::cut(const Step& step, const Solid& solid, const StraightMov
     removed_when_.over(time_at(step, move.s0), time_at(step, move.s1),
                        [&](Volume& v, double share) { v.value += volume * share; });
   return volume;
+}
+
+void TurningCheck::tell_gouge(const Step& step, const Solid& solid, const StraightMove& move,
+                              const TurningGouge& gouge, double volume) {
+  stock::Touch touch;
+  touch.depth = gouge.depth;
+  touch.point = gouge.r * across_ + gouge.z * Vec3::UnitZ();
+  Finding f = cut_row(Kind::gouge_live, step, move, {solid.name, solid.role}, *raw_, touch.point,
+                      [](double part) { return part >= 1; });
+  f.body_b = "part";
+  f.pair = "cutter-part";
+  f.message = "cutter `" + solid.name + "` goes into the part";
+  f.depth_bound = watch_->bound();
+  f.limit = watch_->design().gouge;
+  f.unit = "mm";
+  f.remedy = "check the diameter, the tool's offsets and nose, and where the part stands ([part])";
+  // It goes all around; the result is compared at eight places.
+  for (int i = 0; i < 8; ++i) {
+    touch.point =
+        Eigen::AngleAxisd(i * std::numbers::pi / 4, Vec3::UnitZ()) * Vec3(gouge.r, 0, gouge.z);
+    watch_->note(f, touch);
+  }
+  rows_.tell(std::move(f), gouge.depth, volume);
 }
 
 std::optional<Kind> TurningCheck::forbidden(const Step& step) const {

@@ -13,6 +13,7 @@
 #include "sim/checks/cut_rows.h"
 #include "sim/checks/part_watch.h"
 #include "sim/checks/tool_way.h"
+#include "sim/checks/turning_gouge.h"
 #include "sim/sim.h"
 #include "stock/stock.h"
 
@@ -63,6 +64,8 @@ class TurningCheck final : public Check {
   stock::TurningSection swept(const Solid& solid, const tool::Block& block,
                               const StraightMove& move, double part) const;
   double cut(const Step& step, const Solid& solid, const StraightMove& move);
+  void tell_gouge(const Step& step, const Solid& solid, const StraightMove& move,
+                  const TurningGouge& gouge, double volume);
   Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
               const stock::TurningTouch& touch) const;
   void compare_with_part(Summary& summary, Findings& out);
