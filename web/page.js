@@ -86,12 +86,15 @@
     root.dataset.theme = dark ? 'light' : 'dark';
     dispatchEvent(new Event('themechange'));
   }}, '◐ theme');
-  const count = severity => report.findings.filter(f => f.severity === severity).length;
+  const counted = severity => {
+    const n = report.findings.filter(f => f.severity === severity).length;
+    return n + ' ' + severity + (n === 1 ? '' : 's');
+  };
   by('head').append(
     make('span', {class: 'verdict ' + report.verdict}, words[report.verdict]),
     make('h1', {}, run.program.name), theme,
     make('span', {class: 'facts'}, [report.machine, clock(report.timing.cycle_time_s),
-      count('error') + ' errors, ' + count('warning') + ' warnings'].filter(Boolean).join('  ·  ')));
+      counted('error') + ', ' + counted('warning')].filter(Boolean).join('  ·  ')));
   document.title = report.verdict + ' – ' + run.program.name + ' – aircut';
 
   // ---- what was not checked ------------------------------------------------------------------
