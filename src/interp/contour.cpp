@@ -176,24 +176,6 @@ std::vector<PlanePoint> meetings(const ContourPiece& a, const ContourPiece& b) {
   return points;
 }
 
-// Lets two moved pieces with a gap or overlap between them that is narrow along u end and begin
-// where their carriers meet. False when these meet nowhere near.
-bool join(ContourPiece& a, ContourPiece& b, double narrow) {
-  const double gap = distance(a.end, b.start);
-  if (gap < tiny || std::fabs(a.end.u - b.start.u) >= narrow) return false;
-  const PlanePoint middle{(a.end.u + b.start.u) / 2, (a.end.v + b.start.v) / 2};
-  PlanePoint best = middle;
-  double nearest = gap + narrow;
-  for (const PlanePoint q : carriers_meet(a, b, 2 * narrow)) {
-    if (distance(q, middle) >= nearest) continue;
-    nearest = distance(q, middle);
-    best = q;
-  }
-  if (nearest >= gap + narrow) return false;
-  a.end = b.start = best;
-  return true;
-}
-
 // How far along the piece a point of it lies, for sorting.
 double way_along(const ContourPiece& p, PlanePoint q) {
   if (p.turn == 0) return distance(p.start, q);
@@ -208,6 +190,26 @@ PlanePoint middle_of(const ContourPiece& p) {
 
 double length_of(const ContourPiece& p) {
   return p.turn == 0 ? distance(p.start, p.end) : sweep_of(p) * radius_of(p);
+}
+
+// Lets two moved pieces with a gap or overlap between them that is narrow along u end and begin
+// where their carriers meet. False when these meet nowhere near.
+bool join(ContourPiece& a, ContourPiece& b, double narrow) {
+  const double gap = distance(a.end, b.start);
+  if (gap < tiny || std::fabs(a.end.u - b.start.u) >= narrow) return false;
+  const PlanePoint middle{(a.end.u + b.start.u) / 2, (a.end.v + b.start.v) / 2};
+  PlanePoint best = middle;
+  // Pieces that are almost tangent meet far from their ends.
+  const double reach = gap + std::min({length_of(a) / 2, length_of(b) / 2, 10 * narrow});
+  double nearest = reach;
+  for (const PlanePoint q : carriers_meet(a, b, 2 * narrow)) {
+    if (distance(q, middle) >= nearest) continue;
+    nearest = distance(q, middle);
+    best = q;
+  }
+  if (nearest >= reach) return false;
+  a.end = b.start = best;
+  return true;
 }
 
 // The arc round the convex corner between two moved pieces, nothing at a concave one.

@@ -8,6 +8,7 @@
 // (their mouth is crossed at its level), or are the only thing that is cut.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "interp/contour.h"
 
@@ -42,7 +43,7 @@ class Rougher {
   PlanePoint at_;
   double level_ = 0;
   bool climbed_ = false;  // the way down to the contour lies behind
-  bool first_pocket_ = false;
+  double mouth_ = -std::numeric_limits<double>::infinity();  // the highest of the pockets so far
 };
 
 void Rougher::go(bool fast, PlanePoint end, const char* what) {
@@ -102,12 +103,12 @@ void Rougher::follow(std::size_t at) {
   Contour rest = split_at_v_extremes({contour_[at]});
   while (!rest.empty()) {
     const bool dives = falls(rest.front());
-    // Pockets alone: the way down to the contour is not cut, and the first pocket's mouth is the
-    // first level.
+    // Pockets alone: the way down to the contour is not cut, and the levels begin anew at each
+    // mouth that is higher than those before.
     const bool skip = dives && options_.pockets == Roughing::Pockets::only && !climbed_;
     if (dives && !skip) {
-      if (first_pocket_) level_ = at_.v;
-      first_pocket_ = false;
+      if (options_.pockets == Roughing::Pockets::only && at_.v > mouth_ + band)
+        level_ = mouth_ = at_.v;
       dive(at, rest, approach);
     }
     const bool climbs_out = dives && rest.size() > 1;  // the rest of an arc in one move
@@ -134,7 +135,6 @@ void Rougher::follow_without_pockets(std::size_t at) {
 std::optional<std::vector<CutterMove>> Rougher::run(std::string& problem) {
   at_ = contour_.front().start;
   level_ = at_.v;
-  first_pocket_ = options_.pockets == Roughing::Pockets::only;
   go(true, at_, "to the start");
   for (std::size_t at = 0; at < contour_.size() && !full(); ++at) {
     const ContourPiece first = split_at_v_extremes({contour_[at]}).front();
