@@ -24,7 +24,7 @@ const CodeRule* motion_of(BlockRun& run) {
   for (const Word& word : run.block.words) {
     if (word.letter != 'G' && word.letter != 'M') continue;
     if (!word.rule) {
-      run.error("unknown_code", word.place, "this is not a code of this control");
+      run.unknown_code(word);
       return nullptr;
     }
     if (word.rule->group == ModalGroup::motion && word.rule->code <= 30) {

@@ -90,4 +90,31 @@ std::vector<std::span<const CodeRule>> layers_of(Dialect dialect, bool lathe) {
   return layers;
 }
 
+std::string control_with(int code, Dialect dialect, bool lathe) {
+  struct Other {
+    Dialect dialect;
+    bool lathe;
+    const char* told;
+  };
+  static constexpr Other others[] = {
+      {Dialect::fanuc, false, "Fanuc's machining centres have it (--dialect fanuc)"},
+      {Dialect::fanuc, true, "Fanuc's turning centres have it (--dialect fanuc --lathe)"},
+      {Dialect::haas, false, "Haas's machining centres have it (--dialect haas)"},
+      {Dialect::haas, true, "Haas's turning centres have it (--dialect haas --lathe)"},
+      {Dialect::linuxcnc, false, "LinuxCNC has it (--dialect linuxcnc)"},
+  };
+  const auto has = [code](const Other& other) {
+    for (const auto layer : layers_of(other.dialect, other.lathe))
+      for (const CodeRule& rule : layer)
+        if (rule.letter == 'G' && rule.code == code && rule.handler) return true;
+    return false;
+  };
+  // The same maker's other machines first.
+  for (const Other& other : others)
+    if (other.dialect == dialect && other.lathe != lathe && has(other)) return other.told;
+  for (const Other& other : others)
+    if (other.dialect != dialect && has(other)) return other.told;
+  return {};
+}
+
 }  // namespace aircut::interp

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "interp/block.h"
@@ -42,6 +43,9 @@ const DialectTraits& traits_of(Dialect dialect);
 
 /// Rows of the code table, base first: a row of a later layer replaces the row of the same code.
 std::vector<std::span<const CodeRule>> layers_of(Dialect dialect, bool lathe);
+
+/// Which other control has the G code (× 10), and the option that chooses it; empty: none.
+std::string control_with(int code, Dialect dialect, bool lathe);
 
 /// The rows that each dialect brings (code_table.cpp, fanuc_codes.cpp, haas_codes.cpp).
 std::span<const CodeRule> linuxcnc_rows();

@@ -322,8 +322,7 @@ bool BlockExecutor::collect() {
     const CodeRule* rule = word.rule;
     const std::string name = rule && rule->handler ? "" : word.letter + shortest(word.number);
     if (!rule) {
-      run_.error("unknown_code", word.place,
-                 name + " is not a code of this control; check the number");
+      run_.unknown_code(word);
       return false;
     }
     if (!rule->handler) {

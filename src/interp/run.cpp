@@ -1,9 +1,12 @@
 #include "interp/run.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "base/text.h"
+#include "interp/dialect.h"
+#include "interp/impl.h"
 
 namespace aircut::interp {
 
@@ -57,6 +60,16 @@ bool BlockRun::given(const CodeRule& rule) const {
 
 void BlockRun::error(const char* kind, Place place, std::string message) {
   if (!fault_) fault_ = Fault{kind, place, std::move(message)};
+}
+
+void BlockRun::unknown_code(const Word& word) {
+  std::string other;
+  if (word.letter == 'G' && word.number >= 0 && word.number < 1000)
+    other = control_with(static_cast<int>(std::lround(word.number * 10)), session.options.dialect,
+                         session.table.lathe());
+  error("unknown_code", word.place,
+        word.letter + shortest(word.number) + " is not a code of this control; " +
+            (other.empty() ? "check the number" : other));
 }
 
 void BlockRun::warning(const char* kind, Place place, std::string message) {

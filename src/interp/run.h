@@ -174,6 +174,8 @@ class BlockRun {
   void error(const char* kind, const CodeRule& rule, std::string message) {
     error(kind, place(rule), std::move(message));
   }
+  /// The error of a code without a row: what other control has it.
+  void unknown_code(const Word& word);
   void warning(const char* kind, Place place, std::string message);
   void info(const char* kind, const CodeRule& rule, std::string message);
   bool ok() const { return !fault_; }

@@ -284,5 +284,26 @@ TEST(FanucCodes, KeepTheirOffsetsInTheParameterFile) {
   EXPECT_EQ(ran.parameters.values.at(5183), 30);
 }
 
+/// What is told about a code that the control does not have.
+std::string unknown_on(const Setting& setting, const std::string& code) {
+  return commands_of(code, setting, 0);
+}
+
+TEST(UnknownCodes, AreToldWithTheControlThatHasThem) {
+  const auto told = [](const std::string& code, const char* who) {
+    return "error unknown_code: " + code + " is not a code of this control; " + who + " | ";
+  };
+  EXPECT_EQ(unknown_on(fanuc, "G96"),
+            told("G96", "Fanuc's turning centres have it (--dialect fanuc --lathe)"));
+  EXPECT_EQ(unknown_on(fanuc_lathe, "G51.1"),
+            told("G51.1", "Fanuc's machining centres have it (--dialect fanuc)"));
+  EXPECT_EQ(unknown_on(fanuc, "G154"),
+            told("G154", "Haas's machining centres have it (--dialect haas)"));
+  EXPECT_EQ(unknown_on(control(Dialect::linuxcnc), "G68"),
+            told("G68", "Fanuc's machining centres have it (--dialect fanuc)"));
+  EXPECT_EQ(unknown_on(fanuc, "G59.3"), told("G59.3", "LinuxCNC has it (--dialect linuxcnc)"));
+  EXPECT_EQ(unknown_on(fanuc, "G299"), told("G299", "check the number"));
+}
+
 }  // namespace
 }  // namespace aircut::test
