@@ -71,13 +71,14 @@ std::optional<double> sync_error(const plan::Segment& segment, double t, double 
   return segment.sync->pitch * std::abs(plan::spindle_turns(segment, t)) - s;
 }
 
-// True when F counts degrees: the block moves rotary axes alone.
+// True when F counts degrees: the block moves rotary axes alone. The segment may be a small part of
+// the block.
 bool counts_degrees(const plan::Segment& segment) {
   const auto* line = std::get_if<plan::Line>(&segment.path);
   if (!line) return false;
   const AxisValues way = line->end - line->start;
   for (const Axis axis : all_axes)
-    if (!is_rotary(axis) && std::abs(way[axis]) > 1e-7) return false;
+    if (!is_rotary(axis) && std::abs(way[axis]) > 1e-7 * (segment.u1 - segment.u0)) return false;
   return true;
 }
 

@@ -85,6 +85,19 @@ TEST_P(Override, ChangesNothingBeforeItsTimeAndBrakesFromThenOn) {
   }
 }
 
+// What is left of the line is 5e-8 mm, and a row falls there.
+TEST(OverrideEvent, RightBeforeALinesEndLeavesTheFeedInMillimetres) {
+  const auto machine = mill();
+  Program program;
+  program.exact_stop().feed(20).line(xyz(10.0001, 0, 0));
+  const double end = plan_with(*machine, program, {}).time();
+  const Planned planned = plan_with(*machine, program, {{end - 1e-5, What::feed, 0.5}});
+  const JointLog log = logged(machine, planned);
+  ASSERT_GT(log.rows.size(), 520u);
+  EXPECT_LE(log.value(520, "feed_cmd"), 20);
+  EXPECT_GE(log.value(520, "feed_cmd"), 10);
+}
+
 TEST_P(Override, NeverMakesAJointFasterThanItIs) {
   const Planned planned = plan_with(*machine_, there_and_back(), {{3, What::feed, 20}});
   const JointLog log = logged(machine_, planned);
