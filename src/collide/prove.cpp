@@ -203,7 +203,8 @@ class Proof {
     separate_ = false;
     contact(0);
     if (!point) return;
-    hit_ = Hit{contact_safe_, t_, *point};
+    // Not where this contact began: an earlier one, too shallow to be a hit, may have come apart.
+    hit_ = Hit{std::min(unresolved_->t0, contact_safe_), t_, *point};
     bisect_overlap();
   }
 
