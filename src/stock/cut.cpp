@@ -24,6 +24,7 @@ namespace {
 /// Sums of one thread: what each slot lost on Z rays.
 struct Sums {
   std::vector<std::int64_t> quanta;
+  std::vector<SliceExtent> slices;
   std::ptrdiff_t bytes = 0;
 };
 
@@ -36,7 +37,7 @@ class ColumnCutter {
     std::vector<Work> work;
     for (const Sweep* sweep : sweeps) {
       ColumnSweep column = ColumnSweep::of(*sweep, lattice(), i_, j_);
-      if (column.touches()) work.push_back({column, sweep->slot});
+      if (column.touches()) work.push_back({column, sweep->slot, sweep->watch});
     }
     for (const Work& w : work) cut_z(w);
     std::stable_sort(work.begin(), work.end(), [](const Work& a, const Work& b) {
@@ -55,6 +56,7 @@ class ColumnCutter {
   struct Work {
     ColumnSweep sweep;
     std::size_t slot;
+    const SliceWatch* watch;
   };
 
   const Lattice& lattice() const { return stock_.lattice; }
@@ -107,11 +109,37 @@ class ColumnCutter {
     slot(k).set(BrickSlot::empty);
   }
 
-  void take_whole(int k, std::size_t who) {
+  void take_whole(int k, const Work& work) {
     std::int64_t quanta = std::int64_t{rays} * brick_quanta;
     if (!slot(k).is(BrickSlot::full)) quanta = take_out(k).family[2].quanta();
-    sums_.quanta[who] += quanta;
+    sums_.quanta[work.slot] += quanta;
+    if (work.watch && quanta > 0) {
+      // Every ray of it, from border to border: chords that go over both.
+      Chords all{};
+      std::fill_n(all.b, cells, brick_quanta);
+      Brick& brick = take_out(k);
+      const std::size_t before = brick.bytes();
+      for (int row = 0; row < cells; ++row) {
+        RowTaken taken;
+        if (take_row(brick.family[2], row, all, kernels_, &taken).quanta > 0)
+          see(*work.watch, k, row, taken);
+      }
+      if (slot(k).brick())
+        sums_.bytes +=
+            static_cast<std::ptrdiff_t>(brick.bytes()) - static_cast<std::ptrdiff_t>(before);
+      else
+        fresh_.reset();
+    }
     drop(k);
+  }
+
+  void see(const SliceWatch& watch, int k, int row, const RowTaken& taken) {
+    const double pitch = lattice().pitch, quantum = lattice().quantum();
+    const double bottom = k * lattice().brick_size(), y = (j_ * cells + row + 0.5) * pitch;
+    for (int lane = 0; lane < cells; ++lane)
+      if (const int from = taken.low[lane], to = taken.high[lane]; from < to)
+        watch.see((i_ * cells + lane + 0.5) * pitch, y, bottom + from * quantum,
+                  bottom + to * quantum, to - from, sums_.slices.data());
   }
 
   void cut_z(const Work& work) {
@@ -120,7 +148,7 @@ class ColumnCutter {
     each_brick(sweep, [&](int k, double bottom) {
       if (sweep.tilted ? sweep.tilted->takes_all(brick_box(k))
                        : sweep.takes_all(bottom, bottom + size))
-        return take_whole(k, work.slot);
+        return take_whole(k, work);
       Brick& brick = take_out(k);
       const double quanta = (sweep.floor - bottom) / lattice().quantum() - 1;
       if (quanta > brick.z_top()) return;
@@ -140,8 +168,11 @@ class ColumnCutter {
         } else if (!kernels_.upright(local, row, family.lows(row), family.highs(row), chords_)) {
           continue;
         }
-        const RowLoss loss = take_row(family, row, chords_, kernels_);
+        RowTaken taken;
+        const RowLoss loss =
+            take_row(family, row, chords_, kernels_, work.watch ? &taken : nullptr);
         sums_.quanta[work.slot] += loss.quanta;
+        if (work.watch && loss.quanta > 0) see(*work.watch, k, row, taken);
         if (!loss.changed) continue;
         changed = true;
         top = family.top(row);
@@ -259,11 +290,15 @@ Bins bin(std::span<const Sweep> sweeps, const Lattice& lattice) {
   return out;
 }
 
-void cut_batch(Stock::Impl& stock, std::span<const Sweep> sweeps, std::vector<Removal>& rows) {
+void cut_batch(Stock::Impl& stock, std::span<const Sweep> sweeps, std::vector<Removal>& rows,
+               std::vector<SliceExtent>& slices) {
   const Bins bins = bin(sweeps, stock.lattice);
   const unsigned threads = std::max(stock.options.threads, 1u);
   std::vector<Sums> sums(threads);
-  for (Sums& s : sums) s.quanta.assign(rows.size(), 0);
+  for (Sums& s : sums) {
+    s.quanta.assign(rows.size(), 0);
+    s.slices.assign(slices.size(), {});
+  }
   for_each_index(bins.columns.size(), threads, [&](std::size_t n, unsigned thread) {
     const std::size_t column = bins.columns[n], width = stock.lattice.bricks[0];
     ColumnCutter(stock, static_cast<int>(column % width), static_cast<int>(column / width),
@@ -272,6 +307,7 @@ void cut_batch(Stock::Impl& stock, std::span<const Sweep> sweeps, std::vector<Re
   });
   for (const Sums& s : sums) {
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i].quanta += s.quanta[i];
+    for (std::size_t i = 0; i < slices.size(); ++i) slices[i].add(s.slices[i]);
     stock.brick_bytes += static_cast<std::size_t>(s.bytes);
   }
 }
@@ -303,9 +339,39 @@ void for_each_index(std::size_t n, unsigned threads,
   for (std::thread& worker : workers) worker.join();
 }
 
+namespace {
+
+// The slices of a batch that took something, as fractions of their pieces' ways.
+void add_slices(const std::vector<SliceWatch>& watches, const std::vector<SliceExtent>& extents,
+                double ray_volume, std::vector<Slice>& out) {
+  for (const SliceWatch& watch : watches)
+    for (std::size_t i = 0; i < watch.count; ++i) {
+      const SliceExtent& e = extents[watch.first + i];
+      if (e.quanta == 0) continue;
+      const auto count = static_cast<double>(watch.count), at = static_cast<double>(i);
+      Slice slice{watch.piece, at / count, (at + 1) / count, {}};
+      slice.in.volume = static_cast<double>(e.quanta) * ray_volume;
+      if (e.high >= e.low) slice.in.depth = e.high - e.low;
+      if (watch.length > 0) slice.in.left = e.left;
+      if (watch.length > 0) slice.in.right = e.right;
+      out.push_back(slice);
+    }
+}
+
+}  // namespace
+
 Expected<std::vector<Removal>> Stock::cut(std::span<const Piece> pieces) {
+  std::vector<Slice> none;
+  return cut(pieces, 0, none);
+}
+
+Expected<std::vector<Removal>> Stock::cut(std::span<const Piece> pieces, double length,
+                                          std::vector<Slice>& slices) {
   if (auto ok = supported(pieces); !ok) return unexpected(ok.error());
   std::vector<Removal> out, rows;
+  std::vector<SliceWatch> watches;
+  std::vector<SliceExtent> extents;
+  std::size_t done = 0;
   std::unordered_map<std::uint32_t, std::size_t> out_of, row_of;
   std::vector<Sweep> sweeps;
   const std::size_t batch = std::max<std::size_t>(impl_->options.batch, 1);
@@ -315,13 +381,28 @@ Expected<std::vector<Removal>> Stock::cut(std::span<const Piece> pieces) {
     sweeps.clear();
     rows.clear();
     row_of.clear();
+    watches.clear();
+    if (length > 0) watches.reserve(part.size());  // sweeps point at them
+    std::size_t watched = 0;
     for (const Piece& piece : part) {
       const auto [row, fresh] = row_of.try_emplace(piece.move, rows.size());
       if (fresh) rows.push_back({.move = piece.move});
-      for (const Outline& body : piece.cutter->bodies())
+      if (length > 0) {
+        SliceWatch& watch =
+            watches.emplace_back(SliceWatch::of(piece, impl_->lattice.origin, length));
+        watch.piece = done++;
+        watch.first = watched;
+        watched += watch.count;
+      }
+      for (const Outline& body : piece.cutter->bodies()) {
         sweeps.push_back(Sweep::of(body, piece, impl_->lattice, row->second));
+        if (length > 0) sweeps.back().watch = &watches.back();
+      }
     }
-    cut_batch(*impl_, sweeps, rows);
+    extents.assign(watched, {});
+    cut_batch(*impl_, sweeps, rows, extents);
+    const double ray_volume = impl_->lattice.quantum() * pitch() * pitch();
+    add_slices(watches, extents, ray_volume, slices);
     for (const Removal& row : rows) {  // a move may go on over the end of a batch
       const auto [at, fresh] = out_of.try_emplace(row.move, out.size());
       if (fresh) out.push_back({.move = row.move});

@@ -16,8 +16,13 @@ void each_lane(std::uint32_t bits, F f) {
   for (; bits != 0; bits &= bits - 1) f(std::countr_zero(bits));
 }
 
+void widen(RowTaken& taken, int lane, int from, int to) {
+  taken.low[lane] = std::min(taken.low[lane], from);
+  taken.high[lane] = std::max(taken.high[lane], to);
+}
+
 /// The same as the kernel's `take` for the intervals beyond a ray's first.
-void take_extra(RayFamily& family, int row, const Chords& chords, RowLoss& loss) {
+void take_extra(RayFamily& family, int row, const Chords& chords, RowLoss& loss, RowTaken* taken) {
   std::vector<ExtraInterval> left;
   bool changed = false;
   for (const ExtraInterval& e : family.extra) {
@@ -34,8 +39,9 @@ void take_extra(RayFamily& family, int row, const Chords& chords, RowLoss& loss)
       left.push_back({e.ray, i});
       continue;
     }
-    const int lost = std::min<int>(b, i.hi) - std::max<int>(a, i.lo);
-    loss.quanta += lost;
+    const int from = std::max<int>(a, i.lo), to = std::min<int>(b, i.hi);
+    loss.quanta += to - from;
+    if (taken) widen(*taken, lane, from, to);
     if (a > i.lo)
       left.push_back(
           {e.ray, {i.lo, static_cast<std::uint16_t>(a), i.normal_lo, code(chords.normal_a[lane])}});
@@ -50,12 +56,17 @@ void take_extra(RayFamily& family, int row, const Chords& chords, RowLoss& loss)
 
 }  // namespace
 
-RowLoss take_row(RayFamily& family, int row, const Chords& chords, const Kernels& kernels) {
+RowLoss take_row(RayFamily& family, int row, const Chords& chords, const Kernels& kernels,
+                 RowTaken* taken) {
   RowLoss loss;
-  if (!family.extra.empty()) take_extra(family, row, chords, loss);
+  if (taken) {
+    std::fill_n(taken->low, cells, brick_quanta);
+    std::fill_n(taken->high, cells, 0);
+  }
+  if (!family.extra.empty()) take_extra(family, row, chords, loss, taken);
 
   const auto first = static_cast<std::size_t>(row * cells);
-  std::uint16_t lo[cells], hi[cells], old_hi[cells];
+  std::uint16_t lo[cells], hi[cells], old_lo[cells], old_hi[cells];
   if (family.block) {
     std::copy_n(&family.block->lo[first], cells, lo);
     std::copy_n(&family.block->hi[first], cells, hi);
@@ -66,11 +77,18 @@ RowLoss take_row(RayFamily& family, int row, const Chords& chords, const Kernels
       hi[i] = full >> i & 1 ? brick_quanta : 0;
     }
   }
+  std::copy_n(lo, cells, old_lo);
   std::copy_n(hi, cells, old_hi);
   RowChange change;
   kernels.take(lo, hi, chords, change);
   if (!change.any()) return loss;
   loss.quanta += change.lost;
+  if (taken && change.lost > 0)
+    for (int i = 0; i < cells; ++i) {
+      const int from = std::max<int>(chords.a[i], old_lo[i]);
+      const int to = std::min<int>(chords.b[i], old_hi[i]);
+      if (from < to) widen(*taken, i, from, to);
+    }
   loss.changed = loss.changed || (change.low | change.high) != 0;
 
   if (!family.block) {

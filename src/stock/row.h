@@ -11,7 +11,14 @@ struct RowLoss {
   std::int64_t quanta = 0;
 };
 
-/// Takes the chords from the row.
-RowLoss take_row(RayFamily& family, int row, const Chords& chords, const Kernels& kernels);
+/// From where to where each ray of a row lost something, quanta from the brick's border; low ≥
+/// high: it lost nothing.
+struct RowTaken {
+  int low[cells], high[cells];
+};
+
+/// Takes the chords from the row. `taken`: filled when it lost something; may be null.
+RowLoss take_row(RayFamily& family, int row, const Chords& chords, const Kernels& kernels,
+                 RowTaken* taken = nullptr);
 
 }  // namespace aircut::stock

@@ -114,6 +114,13 @@ struct Engagement {
   bool any() const { return volume > 0 || depth > 0 || left > -right; }
 };
 
+/// How a piece was in the material over a part of its way, as cut() found it.
+struct Slice {
+  std::size_t piece = 0;    ///< place in cut()'s list
+  double from = 0, to = 0;  ///< fractions of its way at which the cutter's front passes
+  Engagement in;            ///< of the Z rays
+};
+
 enum class Contact { clear, hit, unresolved };
 
 /// Answer of a body that must not touch the material (docs/stock.md).
@@ -163,6 +170,10 @@ class Stock {
   /// of first appearance; a length that several moves cover belongs to the first. Errors:
   /// `stock_memory`; `stock_unsupported`: a motion that is not modelled, nothing was cut.
   Expected<std::vector<Removal>> cut(std::span<const Piece> pieces);
+  /// The same, and how each piece was in the material at its turn: slices at most `length` mm long
+  /// are added to `slices` in order, those that took nothing left out.
+  Expected<std::vector<Removal>> cut(std::span<const Piece> pieces, double length,
+                                     std::vector<Slice>& slices);
 
   /// What the piece would take if it cut now. Changes nothing. Error: `stock_unsupported`.
   Expected<Touch> touch(const Piece& piece) const;
@@ -311,6 +322,14 @@ struct TurningTouch {
   double r = 0, z = 0;  ///< middle of that longest material
 };
 
+/// A part of a ray that a turning move would take.
+struct TurningStretch {
+  bool along_r = false;     ///< the ray leads along the radius, else along Z
+  bool beyond = false;      ///< it is taken on the other side of the axis, where radii are negative
+  double at = 0;            ///< z of a ray along the radius, else its radius; mm
+  double from = 0, to = 0;  ///< mm
+};
+
 /// The material of a spinning piece: a solid of revolution about Z, held as rays along the radius
 /// and along Z through its section, in whole nanometres. As with Stock, order and repetition of
 /// cuts change nothing.
@@ -323,6 +342,9 @@ class TurnedStock {
   /// Takes away what the move sweeps while the stock turns; the volume taken, mm³.
   double cut(const TurningMove& move);
   TurningTouch touch(const TurningMove& move) const;
+  /// Calls `see` with all that the move would take, ray by ray in each direction.
+  void each_stretch(const TurningMove& move,
+                    const std::function<void(const TurningStretch&)>& see) const;
 
   double pitch() const { return pitch_; }
   double volume() const;  ///< mm³

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "stock/outline.h"
+#include "stock/slices.h"
 #include "stock/solid.h"
 #include "stock/tilted.h"
 
@@ -22,6 +23,7 @@ struct Sweep {
   double tip_low = 0, tip_high = 0;
   std::shared_ptr<const TiltedSweep> tilted;  ///< null: the axis is Z
   std::size_t slot = 0;                       ///< whom the removed length is credited to
+  const SliceWatch* watch = nullptr;          ///< of its piece; null: nobody wants to know
 
   static Sweep of(const Outline& outline, const Piece& piece, const Lattice& lattice,
                   std::size_t slot);

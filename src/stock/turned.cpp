@@ -191,8 +191,8 @@ Expected<TurnedStock> TurnedStock::make(double radius, double bore, double lengt
   return out;
 }
 
-// Calls see(along_r, index, from, to) for the parts of rays, in nanometres, that the move sweeps;
-// all of them lie at radii of 0 or more.
+// Calls see(along_r, index, from, to, beyond) for the parts of rays, in nanometres, that the move
+// sweeps; all of them lie at radii of 0 or more, `beyond`: the tool is on the axis' other side.
 template <class See>
 void TurnedStock::each_chord(const TurningMove& move, See see) const {
   std::vector<Disc> level, upright;
@@ -215,8 +215,8 @@ void TurnedStock::each_chord(const TurningMove& move, See see) const {
     if (along_r_[k].empty()) continue;
     const Span c = chord(level, at(k));
     if (!(c.low < c.high)) continue;
-    if (c.high > 0) see(true, k, rounded(std::max(c.low, 0.0)), rounded(c.high));
-    if (c.low < 0) see(true, k, rounded(std::max(-c.high, 0.0)), rounded(-c.low));
+    if (c.high > 0) see(true, k, rounded(std::max(c.low, 0.0)), rounded(c.high), false);
+    if (c.low < 0) see(true, k, rounded(std::max(-c.high, 0.0)), rounded(-c.low), true);
   }
   // Radii on both sides of the axis.
   const double least = std::max({0.0, r.low, -r.high}), most = std::max(r.high, -r.low);
@@ -224,13 +224,13 @@ void TurnedStock::each_chord(const TurningMove& move, See see) const {
     for (const double side : {1.0, -1.0}) {
       if (along_z_[i].empty()) continue;
       const Span c = chord(upright, side * at(i));
-      if (c.low < c.high) see(false, i, rounded(c.low), rounded(c.high));
+      if (c.low < c.high) see(false, i, rounded(c.low), rounded(c.high), side < 0);
     }
 }
 
 double TurnedStock::cut(const TurningMove& move) {
   double volume = 0;
-  each_chord(move, [&](bool radial, std::size_t n, Nanometres from, Nanometres to) {
+  each_chord(move, [&](bool radial, std::size_t n, Nanometres from, Nanometres to, bool) {
     Ray& ray = radial ? along_r_[n] : along_z_[n];
     bool any = false;
     common(ray, from, to, [&](Nanometres a, Nanometres b) {
@@ -245,7 +245,7 @@ double TurnedStock::cut(const TurningMove& move) {
 TurningTouch TurnedStock::touch(const TurningMove& move) const {
   TurningTouch out;
   double volume_z = 0;
-  each_chord(move, [&](bool radial, std::size_t n, Nanometres from, Nanometres to) {
+  each_chord(move, [&](bool radial, std::size_t n, Nanometres from, Nanometres to, bool) {
     const double across = (static_cast<double>(n) + 0.5) * pitch_;
     common(radial ? along_r_[n] : along_z_[n], from, to, [&](Nanometres a, Nanometres b) {
       const double depth = static_cast<double>(b - a) / nm;
@@ -262,6 +262,16 @@ TurningTouch TurnedStock::touch(const TurningMove& move) const {
   });
   out.volume = std::max(out.volume, volume_z);
   return out;
+}
+
+void TurnedStock::each_stretch(const TurningMove& move,
+                               const std::function<void(const TurningStretch&)>& see) const {
+  each_chord(move, [&](bool radial, std::size_t n, Nanometres from, Nanometres to, bool beyond) {
+    const double at = (static_cast<double>(n) + 0.5) * pitch_;
+    common(radial ? along_r_[n] : along_z_[n], from, to, [&](Nanometres a, Nanometres b) {
+      see({radial, beyond, at, static_cast<double>(a) / nm, static_cast<double>(b) / nm});
+    });
+  });
 }
 
 double TurnedStock::volume() const {

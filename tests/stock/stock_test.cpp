@@ -206,6 +206,43 @@ TEST(Stock, IsTheSameInAnyOrderBatchAndNumberOfThreads) {
   EXPECT_EQ(backwards.hash(), hash);
 }
 
+TEST(Stock, SlicesTellHowEachPieceWasInTheMaterialAndChangeNothing) {
+  // A wide cutter takes whole bricks; the second one runs along a wall 3 mm deep, 2 mm wide.
+  const auto wide = *CutterProfile::flat(24, 40), narrow = *CutterProfile::flat(10, 20);
+  const std::vector<Piece> pieces = {
+      {.cutter = &wide, .start = {-15, 3, 5}, .end = {45, 3, 5}},
+      {.cutter = &narrow, .start = {-6, 18, 2}, .end = {36, 18, 2}, .move = 1}};
+  Stock plain = block(0.25), watched = block(0.25);
+  const auto first = plain.engagement(pieces[0]);
+  ASSERT_TRUE(plain.cut({&pieces[0], 1}));
+  const auto second = plain.engagement(pieces[1]);
+  ASSERT_TRUE(plain.cut({&pieces[1], 1}) && first && second);
+  std::vector<Slice> slices;
+  const auto removed = watched.cut(pieces, 2, slices);
+  ASSERT_TRUE(removed);
+  EXPECT_EQ(watched.hash(), plain.hash());
+  EXPECT_EQ(watched.bytes(), plain.bytes());
+  const Engagement* wanted[] = {&*first, &*second};
+  for (std::size_t p = 0; p < 2; ++p) {
+    Engagement sum;
+    double last = -1;
+    for (const Slice& slice : slices) {
+      if (slice.piece != p) continue;
+      EXPECT_GT(slice.from, last);
+      EXPECT_LE((slice.to - slice.from) * (pieces[p].end - pieces[p].start).norm(), 2 + 1e-9);
+      last = slice.from;
+      sum.volume += slice.in.volume;
+      sum.depth = std::max(sum.depth, slice.in.depth);
+      sum.left = std::max(sum.left, slice.in.left);
+      sum.right = std::max(sum.right, slice.in.right);
+    }
+    EXPECT_NEAR(sum.volume, (*removed)[p].volume, 1e-6) << p;
+    EXPECT_NEAR(sum.depth, wanted[p]->depth, 0.25) << p;
+    EXPECT_NEAR(sum.left, wanted[p]->left, 0.25) << p;
+    EXPECT_NEAR(sum.right, wanted[p]->right, 0.25) << p;
+  }
+}
+
 TEST(Stock, CutTwiceLosesNothingMore) {
   const Job job = random_job(tools(), 60, 9);
   Stock stock = block(0.3);
