@@ -297,6 +297,7 @@ double fraction_at(const Step& step, double t);
 
 class CuttingCheck;
 class TurningCheck;
+class CutListener;
 
 /// What a probing move meets.
 struct ProbeResult {
@@ -318,6 +319,8 @@ class Simulator {
 
   /// Observers are told in the order in which they were added.
   void add_observer(Observer& observer) { observers_.push_back(&observer); }
+  /// Told of all cuts (sim/cuts.h), if there is a stock that is cut. Before start().
+  void listen_to_cuts(CutListener& listener);
   /// Puts a tool into the spindle before the run.
   void load_tool(int number) { scene_.load_tool(number); }
   void start();

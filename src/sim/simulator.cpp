@@ -32,6 +32,11 @@ Simulator::Simulator(std::shared_ptr<const machine::Machine> machine, const tool
   }
 }
 
+void Simulator::listen_to_cuts(CutListener& listener) {
+  if (turning_) turning_->listen(listener);
+  if (cutting_) cutting_->listen(listener);
+}
+
 std::optional<TriangleMesh> Simulator::part() const {
   if (turning_) return turning_->part();
   if (!cutting_ || !cutting_->stock()) return std::nullopt;

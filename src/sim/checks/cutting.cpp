@@ -156,6 +156,7 @@ void CuttingCheck::give_up(const std::string& why) {
   if (given_up_.empty()) given_up_ = why;
   batch_.clear();
   batch_times_.clear();
+  batch_cuts_.clear();
 }
 
 void CuttingCheck::tell_given_up(const Step& step, Findings& out) {
@@ -205,14 +206,17 @@ void CuttingCheck::hold(const Step& step, const Solid& cutter, const StraightMov
   batch_.push_back(piece(cutter, move));
   batch_.back().move = static_cast<std::uint32_t>(batch_times_.size());
   batch_times_.push_back({time_at(step, move.s0), time_at(step, move.s1)});
+  if (listener_) note_cut(step, move);
   loose_.add(step, batch_.back());
   if (batch_.size() >= batch_size) flush();
 }
 
 void CuttingCheck::flush() {
   if (batch_.empty()) return;
-  const auto cut = stock_->cut(batch_);
+  slices_.clear();
+  const auto cut = listener_ ? stock_->cut(batch_, longest_cut, slices_) : stock_->cut(batch_);
   if (!cut) return give_up(cut.error().message);
+  if (listener_) tell_cuts();
   for (const stock::Removal& removal : *cut) {
     removed_ += removal.quanta;
     const auto [from, to] = batch_times_[removal.move];
@@ -230,6 +234,47 @@ void CuttingCheck::flush() {
   }
   batch_.clear();
   batch_times_.clear();
+  batch_cuts_.clear();
+}
+
+// The whole move; its slices are known when it is cut. The machine is where it is at both ends, and
+// in between as far as the move has gone.
+void CuttingCheck::note_cut(const Step& step, const StraightMove& move) {
+  WholeCut whole;
+  Cut& cut = whole.cut;
+  cut = cut_at(step);
+  const auto from = step.motion.at_path(move.s0), to = step.motion.at_path(move.s1);
+  cut.joints = from ? *from : joints_;
+  whole.joints_to = to ? *to : cut.joints;
+  const Pose X_MS = stock_at_rest(*machine_, *raw_, cut.joints);
+  cut.pitch = stock_->pitch();
+  cut.t0 = batch_times_.back()[0];
+  cut.t1 = batch_times_.back()[1];
+  cut.point = X_MS * move.from;
+  whole.to = stock_at_rest(*machine_, *raw_, whole.joints_to) * move.to;
+  const Vec3 way = X_MS.linear() * (move.to - move.from);
+  cut.way = way.norm();
+  if (cut.way > 0) cut.feed = way / cut.way;
+  cut.axis = X_MS.linear() * move.axis;
+  batch_cuts_.push_back(std::move(whole));
+}
+
+void CuttingCheck::tell_cuts() {
+  for (const stock::Slice& slice : slices_) {
+    const WholeCut& whole = batch_cuts_[slice.piece];
+    const stock::Piece& piece = batch_[slice.piece];
+    Cut cut = whole.cut;
+    const double middle = 0.5 * (slice.from + slice.to), time = cut.t1 - cut.t0;
+    cut.point += middle * (whole.to - cut.point);
+    cut.joints += middle * (whole.joints_to - cut.joints);
+    cut.point_part = piece.start + middle * (piece.end - piece.start);
+    cut.way *= slice.to - slice.from;
+    cut.t1 = cut.t0 + slice.to * time;
+    cut.t0 += slice.from * time;
+    cut.volume = slice.in.volume;
+    cut.in = slice.in;
+    if (cut.t1 > cut.t0) listener_->on_cut(cut);
+  }
 }
 
 void CuttingCheck::look_for_loose(const Scene& scene, Findings& out) {
@@ -430,6 +475,7 @@ void CuttingCheck::compare_with_part(Summary& summary, Findings& out) {
 
 void CuttingCheck::finish(Summary& summary, Findings& out) {
   if (!raw_) return;
+  if (stock()) flush();
   engagement_.finish(out);
   if (stock()) look_for_loose(*scene_, out);
   if (stock()) compare_with_part(summary, out);

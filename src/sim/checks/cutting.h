@@ -25,6 +25,7 @@
 #include "sim/checks/loose.h"
 #include "sim/checks/part_watch.h"
 #include "sim/checks/tool_way.h"
+#include "sim/cuts.h"
 #include "sim/sim.h"
 #include "stock/stock.h"
 
@@ -39,6 +40,8 @@ class CuttingCheck final : public Check {
   void scene_changed(const Step& step, const JointVector& joints, Findings& out) override;
   void finish(Summary& summary, Findings& out) override;
 
+  /// Who is told of the cuts; outlives the run.
+  void listen(CutListener& listener) { listener_ = &listener; }
   /// Null when there is none, or not all that was cut is known.
   const stock::Stock* stock() const;
   /// The part to be made; null when there is none or it can't be compared.
@@ -68,6 +71,8 @@ class CuttingCheck final : public Check {
   stock::Touch touch_of(const stock::Piece& piece);
   void hold(const Step& step, const Solid& cutter, const StraightMove& move);
   void flush();
+  void note_cut(const Step& step, const StraightMove& move);
+  void tell_cuts();
   bool find_moves(const Step& step);
   void look_at(const Step& step, Findings& out);
   void cutter_may_not(const Step& step, const StraightMove& move, const Solid& cutter, Kind kind);
@@ -108,6 +113,15 @@ class CuttingCheck final : public Check {
   std::vector<stock::Piece> batch_;                 ///< waiting to be cut
   std::vector<std::array<double, 2>> batch_times_;  ///< program times of each, from and to
   TimeBuckets<Volume> removed_when_;
+  CutListener* listener_ = nullptr;
+  /// A whole move that waits in the batch, from where to where it leads in M at rest.
+  struct WholeCut {
+    Cut cut;
+    Vec3 to = Vec3::Zero();
+    JointVector joints_to;
+  };
+  std::vector<WholeCut> batch_cuts_;  ///< empty without a listener
+  std::vector<stock::Slice> slices_;  ///< of the batch, once it is cut
   std::string given_up_;  ///< why nothing more is known of the stock; empty: it is known
   std::string no_part_;   ///< why the result can't be compared with the part
   bool told_ = false;

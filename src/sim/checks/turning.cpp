@@ -306,6 +306,8 @@ stock::TurningSection TurningCheck::swept(const Solid& solid, const tool::Block&
 
 double TurningCheck::cut(const Step& step, const Solid& solid, const StraightMove& move) {
   double volume = 0;
+  const bool insert = step.scene.tool() && step.scene.tool()->pieces.empty();
+  if (listener_ && !insert) tell_axial(step, move, solid);
   // A hair below a surface is what an earlier move left there.
   const std::function<bool(double, double)> still_there = [this](double r, double z) {
     for (const auto& [low, high] : stock_->radii_at(z))
@@ -314,6 +316,7 @@ double TurningCheck::cut(const Step& step, const Solid& solid, const StraightMov
   };
   for (const stock::TurningSection& section : solid.sections) {
     const stock::TurningMove here = in_plane(section, move);
+    if (listener_ && insert) cuts_.look(*stock_, here, move.s0, move.s1);
     std::optional<TurningGouge> gouge;
     if (watch_ && stock_->touch(here).depth > 0)
       gouge = deepest_in_part(here, *watch_->part(), {raw_->diameter / 2, raw_->height},
@@ -351,6 +354,27 @@ void TurningCheck::tell_gouge(const Step& step, const Solid& solid, const Straig
     watch_->note(f, touch);
   }
   rows_.tell(std::move(f), gouge.depth, volume);
+}
+
+// A drill or a driven tool: what it takes on this move, as one stretch.
+void TurningCheck::tell_axial(const Step& step, const StraightMove& move, const Solid& solid) {
+  const stock::TurningTouch here = touch(solid, move);
+  if (!takes(here)) return;
+  Cut cut = cut_at(step);
+  cut.t0 = time_at(step, move.s0);
+  cut.t1 = time_at(step, move.s1);
+  const auto joints = step.motion.at(0.5 * (cut.t0 + cut.t1));
+  cut.joints = joints ? *joints : joints_;
+  const Pose X_MS = stock_at_rest(*machine_, *raw_, cut.joints);
+  cut.way = (move.to - move.from).norm();
+  if (!(cut.way > 0) || !(cut.t1 > cut.t0)) return;
+  cut.point_part = 0.5 * (move.from + move.to) + tip_;
+  cut.point = X_MS * cut.point_part;
+  cut.feed = X_MS.linear() * (move.to - move.from) / cut.way;
+  cut.axis = X_MS.linear() * move.axis;
+  cut.volume = here.volume;
+  cut.pitch = stock_->pitch();
+  listener_->on_cut(cut);
 }
 
 std::optional<Kind> TurningCheck::forbidden(const Step& step) const {
@@ -410,6 +434,7 @@ void TurningCheck::look_at(const Step& step, Findings& out) {
       for (const Solid& solid : others_) ask(step, move, solid);
     if (!given_up_.empty()) return tell_given_up(step, out);
   }
+  if (listener_) cuts_.hand_over(step, *raw_, across_, stock_->pitch(), *listener_);
   if (!kind && !step.segment.sync && volume == 0 && plan::length(step.segment.path) > longest_air)
     add_air_cut(step, out);
 }

@@ -13,6 +13,7 @@
 #include "sim/checks/cut_rows.h"
 #include "sim/checks/part_watch.h"
 #include "sim/checks/tool_way.h"
+#include "sim/checks/turning_cuts.h"
 #include "sim/checks/turning_gouge.h"
 #include "sim/sim.h"
 #include "stock/stock.h"
@@ -32,6 +33,8 @@ class TurningCheck final : public Check {
   void scene_changed(const Step& step, const JointVector& joints, Findings& out) override;
   void finish(Summary& summary, Findings& out) override;
 
+  /// Who is told of the cuts; outlives the run.
+  void listen(CutListener& listener) { listener_ = &listener; }
   /// Null when there is none, or not all that was cut is known.
   const stock::TurnedStock* stock() const;
   /// Its surface in the stock's frame.
@@ -66,6 +69,7 @@ class TurningCheck final : public Check {
   double cut(const Step& step, const Solid& solid, const StraightMove& move);
   void tell_gouge(const Step& step, const Solid& solid, const StraightMove& move,
                   const TurningGouge& gouge, double volume);
+  void tell_axial(const Step& step, const StraightMove& move, const Solid& solid);
   Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
               const stock::TurningTouch& touch) const;
   void compare_with_part(Summary& summary, Findings& out);
@@ -91,6 +95,8 @@ class TurningCheck final : public Check {
   Reach reach_;
   std::vector<StraightMove> moves_;  ///< of the step at hand
   CutRows rows_;
+  CutListener* listener_ = nullptr;
+  TurningCuts cuts_;  ///< of the step at hand
   std::string given_up_;
   bool told_ = false;
 };
