@@ -32,7 +32,6 @@ class Evaluation {
   void loads_of(ContactResult& result) const;
   void check_limits(const SegmentResult& segment);
   DimensionResult dimension(const Dimension& asked, const std::vector<SegmentResult>& segments);
-  void judge(const Dimension& asked, DimensionResult& result);
   Field field(const SegmentResult& segment, const std::vector<RowPart>& row) const;
   std::vector<ToolShare> shares(const SegmentResult& segment, const std::vector<RowPart>& row,
                                 std::optional<std::size_t> body) const;
@@ -290,27 +289,8 @@ DimensionResult Evaluation::dimension(const Dimension& asked,
     out.mean /= time;
   else if (out.unchecked.empty())
     out.unchecked = "its tool cuts nowhere";
-  if (out.unchecked.empty()) judge(asked, out);
+  if (out.unchecked.empty()) judge(asked, asked.place, out, out_);
   return out;
-}
-
-void Evaluation::judge(const Dimension& asked, DimensionResult& result) {
-  if (asked.nominal > 0) result.it_grade = it_grade_of(asked.nominal, result.field.width());
-  if (!asked.tolerance) return;
-  const auto [low, high] = *asked.tolerance;
-  result.capability = capability(result.field.low, result.field.high, low, high, asked.compensate);
-  const auto um = [](double mm) { return fixed(mm * 1e3, 1); };
-  const std::string name = "'" + printable(asked.name) + "'";
-  const std::string band = um(low) + " … " + um(high) + " µm";
-  if (!asked.compensate && (result.least < low || result.most > high))
-    once(Severity::error, "size_error", asked.place,
-         "the size " + name + " is off by " + um(result.least) +
-             (result.most > result.least ? " … " + um(result.most) : "") +
-             " µm, its tolerance is " + band);
-  else if (!result.capability->fits)
-    once(Severity::error, "scatter_too_wide", asked.place,
-         "over a batch the size " + name + " scatters over " + um(result.field.low) + " … " +
-             um(result.field.high) + " µm, its tolerance is " + band);
 }
 
 Result Evaluation::run() {
@@ -338,6 +318,26 @@ Result Evaluation::run() {
 }
 
 }  // namespace
+
+void judge(const Dimension& asked, const SourceSpan& place, DimensionResult& result,
+           Diagnostics& out) {
+  if (asked.nominal > 0) result.it_grade = it_grade_of(asked.nominal, result.field.width());
+  if (!asked.tolerance) return;
+  const auto [low, high] = *asked.tolerance;
+  result.capability = capability(result.field.low, result.field.high, low, high, asked.compensate);
+  const auto um = [](double mm) { return fixed(mm * 1e3, 1); };
+  const std::string name = "'" + printable(asked.name) + "'";
+  const std::string band = um(low) + " … " + um(high) + " µm";
+  if (!asked.compensate && (result.least < low || result.most > high))
+    out.error("size_error", place,
+              "the size " + name + " is off by " + um(result.least) +
+                  (result.most > result.least ? " … " + um(result.most) : "") +
+                  " µm, its tolerance is " + band);
+  else if (!result.capability->fits)
+    out.error("scatter_too_wide", place,
+              "over a batch the size " + name + " scatters over " + um(result.field.low) + " … " +
+                  um(result.field.high) + " µm, its tolerance is " + band);
+}
 
 Result evaluate(const Setup& setup, Diagnostics& out) { return Evaluation(setup, out).run(); }
 

@@ -54,6 +54,11 @@ struct Result {
   std::vector<DimensionResult> dimensions;  ///< as in Setup::dimensions
 };
 
+/// A size's field against its tolerance: sets grade and capability, and reports what is out of it
+/// at `place`.
+void judge(const Dimension& asked, const SourceSpan& place, DimensionResult& result,
+           Diagnostics& out);
+
 /// Findings and warnings go to `out`.
 Result evaluate(const Setup& setup, Diagnostics& out);
 

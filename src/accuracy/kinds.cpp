@@ -76,6 +76,13 @@ const std::vector<KindText>& kinds() {
       {"torque_limit", "more torque than the spindle has",
        "The tools on one spindle need more than limits.torque_Nm together."},
       {"chip_load", "a chip thicker than allowed", "The chip's thickness is above limits.h_max."},
+      {"force_unknown", "a cut whose force is not known",
+       "Warning. Along a program something is cut of which the accuracy file does not tell the "
+       "force:\n"
+       "a tool that it does not list, a thread, an end mill that goes straight down, a cutter "
+       "without\n"
+       "'milling'. Its errors are unknown, and so is the verdict. Complete [[tools]] and their\n"
+       "materials."},
       {"deflection", "a tool that moves too far",
        "The tool's tip is displaced against the work by more than limits.deflection_um."},
   };

@@ -186,14 +186,15 @@ void link_parents(std::vector<std::pair<Table, int>>& roots, SetupReading& readi
 
 void read_bodies(Table& top, SetupReading& reading) {
   std::vector<std::pair<Table, int>> roots;  // the body of a table that hangs on its parent
+  std::vector<bool> base_on_parent;
   for (Table& table : top.tables("bodies")) {
     const std::string name = table.required_text("name");
     if (reading.body_index.contains(name))
       table.report(make_error("body_tree", table.span("name"),
                               "there are two bodies named " + quoted(name)));
     // A whole run reads these: which link of the machine carries the body and its base point.
-    table.text("link");
-    table.choice("base_on", {"body", "parent"}, "body");
+    const std::string own_link = table.text("link", "");
+    const bool on_parent = table.choice("base_on", {"body", "parent"}, "body") == "parent";
     const int first = static_cast<int>(reading.setup.bodies.size());
     const double epsilon = band(table);
     for (Body& body : bodies_of(table, name, reading)) {
@@ -201,6 +202,9 @@ void read_bodies(Table& top, SetupReading& reading) {
       if (body.parent != ground) body.parent += first;
       reading.setup.bodies.push_back(body);
       reading.setup.epsilon.push_back(epsilon);
+      reading.setup.links.push_back(own_link);
+      reading.setup.link_places.push_back(table.span(table.has("link") ? "link" : "name"));
+      base_on_parent.push_back(on_parent);
     }
     table.know("parent");
     roots.emplace_back(table, first);
@@ -211,6 +215,11 @@ void read_bodies(Table& top, SetupReading& reading) {
   if (reading.setup.bodies.empty())
     top.error("bodies", "the set-up needs at least one [[bodies]]: an elastic part of the machine");
   link_parents(roots, reading);
+  // A joint that is fixed to its parent stays with the parent's link.
+  const std::vector<std::string> own = reading.setup.links;
+  for (std::size_t b = 0; b < own.size(); ++b)
+    if (const int parent = reading.setup.bodies[b].parent; base_on_parent[b])
+      reading.setup.links[b] = parent == ground ? "" : own[static_cast<std::size_t>(parent)];
 }
 
 }  // namespace aircut::accuracy

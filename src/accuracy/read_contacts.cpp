@@ -8,17 +8,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "accuracy/cut_force.h"
 #include "accuracy/setup_keys.h"
 
 namespace aircut::accuracy {
 namespace {
-
-void set_terms(DepthForce& force, const Triad& triad, const std::array<PowerTerm, 3>& laws,
-               double S, double V) {
-  const std::array<Vec3, 3> directions = {triad.cut, triad.thrust, triad.feed};
-  for (std::size_t i = 0; i < 3; ++i)
-    force.terms[i] = {directions[i], laws[i].at(1, S, V), laws[i].x};
-}
 
 // The law of a tool, else of its work's material.
 const Material* material_of(Table& table, const SetupReading& reading,
@@ -127,26 +121,22 @@ void read_turning(Table& table, SetupReading& reading, ContactEntry& contact) {
   if (!triad || !material) return;
   const ToolEntry& tool = reading.setup.tools[contact.tool];
   const double kappa = effective_kappa(tool.kappa, tool.nose_radius, std::max(contact.t, 1e-6));
-  std::array<PowerTerm, 3> laws;
-  if (material->turning) {
-    laws = {material->turning->cut, material->turning->thrust, material->turning->feed};
-    warn_outside(table, "t", material->turning->valid_t, contact.t);
-    warn_outside(table, "S", material->turning->valid_S, contact.S);
-    warn_outside(table, "V", material->turning->valid_V, contact.V);
-  } else if (material->kienzle) {
-    laws.fill(material->kienzle->power_law(kappa));
-    laws[1].K = material->thrust_ratio;
-    laws[2].K = material->feed_ratio;
-  } else {
+  const auto laws = turning_laws(*material, kappa);
+  if (!laws) {
     table.report(make_error("accuracy_reference", table.span("t"),
                             "the material has no law for turning: 'cut', 'thrust' and 'feed', or "
                             "'kienzle'"));
     return;
   }
-  contact.cut_law = laws[0];
+  if (material->turning) {
+    warn_outside(table, "t", material->turning->valid_t, contact.t);
+    warn_outside(table, "S", material->turning->valid_S, contact.S);
+    warn_outside(table, "V", material->turning->valid_V, contact.V);
+  }
+  contact.cut_law = laws->front();
   contact.chip = contact.S * std::sin(kappa);
   contact.source = material->source;
-  set_terms(contact.force, *triad, laws, contact.S, contact.V);
+  set_terms(contact.force, *triad, *laws, contact.S, contact.V);
 }
 
 // The frame of a milling cut as columns: x along the feed, z up the tool.
@@ -195,32 +185,17 @@ void read_milling(Table& table, SetupReading& reading, ContactEntry& contact) {
                        : mode == "down" ? MillingMode::down
                                         : MillingMode::slot);
   if (!material || !frame) return;
-  EdgeLaw law;
-  if (material->milling) {
-    law.constants = *material->milling;
-  } else if (material->kienzle) {
-    law.kienzle = *material->kienzle;
-    law.radial_ratio = material->thrust_ratio;
-    law.axial_ratio = 0;
-  } else {
+  const auto law = edge_law(*material);
+  if (!law) {
     table.report(make_error("accuracy_reference", table.span("a_p"),
                             "the material has no law for milling: 'milling' or 'kienzle'"));
     return;
   }
-  const bool closed = cutter.shape == Cutter::Shape::flat && !law.is_kienzle();
-  const MillingForce mean =
-      closed ? mean_force(cutter, law.constants, cut) : mean_force(cutter, law, cut);
-  const MillingForce used = peak ? peak_force(cutter, law, cut) : mean;
-  const Vec3 force = *frame * used.force;
-  // The mean force of a flat end mill is proportional to a_p, so the depth may scatter; all else is
-  // taken as it is.
-  if (!peak && cutter.shape == Cutter::Shape::flat && force.norm() > 0)
-    contact.force.terms[0] = {force.normalized(), force.norm() / contact.t, 1};
-  else
-    contact.force.fixed = force;
+  const MillingLoad load = milling_load(cutter, *law, cut, *frame, peak);
+  contact.force = load.force;
   contact.chip = thickest_chip(cut);
-  contact.torque = used.torque;
-  contact.power = mean.torque * rpm * 2 * std::numbers::pi / 60 * 1e-6;
+  contact.torque = load.torque;
+  contact.power = load.mean_torque * rpm * 2 * std::numbers::pi / 60 * 1e-6;
   contact.V = std::numbers::pi * cutter.diameter * rpm / 1000;
   contact.diameter = cutter.diameter;
   contact.source = material->source;

@@ -180,6 +180,15 @@ Cutter read_cutter(Table& table) {
   return out;
 }
 
+Drill read_drill(Table& table) {
+  Drill out{positive(table, "D"), table.number("point_angle_deg", 118),
+            table.number("chisel_factor", 1)};
+  if (!(out.point_angle > 0 && out.point_angle < 180))
+    range_error(table, "point_angle_deg", "a point angle is above 0 and below 180 degrees");
+  out.point_angle *= degree;
+  return out;
+}
+
 void read_tools(Table& top, SetupReading& reading) {
   for (Table& table : top.tables("tools")) {
     ToolEntry tool;
@@ -206,6 +215,11 @@ void read_tools(Table& top, SetupReading& reading) {
     tool.nose_radius = table.number("nose_radius", 0);
     if (tool.nose_radius < 0) range_error(table, "nose_radius", "'nose_radius' is at least 0 mm");
     if (auto milling = table.table("milling")) tool.cutter = read_cutter(*milling);
+    if (auto drill = table.table("drilling")) tool.drill = read_drill(*drill);
+    tool.dt = table.number("dt", 0);
+    if (tool.dt < 0) range_error(table, "dt", "an allowance is at least 0 mm");
+    tool.peak = table.choice("load", {"mean", "peak"}, "mean") == "peak";
+    tool.place = table.span("id");
     reading.tool_index[tool.id] = reading.setup.tools.size();
     reading.setup.tools.push_back(tool);
   }
@@ -223,6 +237,7 @@ void read_works(Table& top, SetupReading& reading) {
     if (!work.material.empty()) reading.material(table, "material", work.material);
     work.axis = unit_vector(table, "axis").value_or(Vec3::UnitZ());
     work.axis_point = vector3(table, "axis_point").value_or(Vec3::Zero());
+    work.place = table.span("body");
     reading.work_index[work.spindle] = reading.setup.works.size();
     reading.setup.works.push_back(work);
   }
@@ -329,6 +344,13 @@ void read_dimensions(Table& top, SetupReading& reading) {
     out.nominal = table.number("nominal", 0);
     out.tolerance = interval(table, "tolerance");
     out.compensate = table.boolean("compensate", false);
+    if (const auto lines = table.numbers("lines", 2)) {
+      out.lines = Interval{(*lines)[0], (*lines)[1]};
+      if (!(out.lines->low >= 1 && out.lines->high >= out.lines->low))
+        range_error(table, "lines", "'lines' has the first and the last line of the program");
+    }
+    if (auto at = table.table("at"))
+      out.at = {interval(*at, "x"), interval(*at, "y"), interval(*at, "z")};
     reading.setup.dimensions.push_back(out);
   }
 }

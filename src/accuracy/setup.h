@@ -23,6 +23,11 @@ struct Settings {
   bool mean_diameter = false;  ///< V of the mean instead of the outer diameter
 };
 
+/// A drill or another tool that is fed along its axis.
+struct Drill {
+  double diameter = 0, point_angle = 0, chisel_factor = 1;
+};
+
 /// Coefficients of a material and tool, as far as they are known.
 struct Material {
   std::optional<TurningLaw> turning;
@@ -39,6 +44,10 @@ struct ToolEntry {
   double kappa = 0;  ///< entering angle
   double nose_radius = 0;
   std::optional<Cutter> cutter;
+  std::optional<Drill> drill;
+  double dt = 0;      ///< along a program: allowance of its depth
+  bool peak = false;  ///< along a program: the largest force of a turn instead of its mean
+  SourceSpan place;
 };
 
 struct WorkEntry {
@@ -47,6 +56,7 @@ struct WorkEntry {
   std::string material;
   Vec3 axis = Vec3::UnitZ();  ///< of the spindle; it turns about it by the right-hand rule
   Vec3 axis_point = Vec3::Zero();
+  SourceSpan place;
 };
 
 /// One engaged tool as the file describes it, with its force worked out.
@@ -87,13 +97,19 @@ struct Dimension {
   double nominal = 0;
   std::optional<Interval> tolerance;  ///< of the error
   bool compensate = false;
+  /// Along a program: the cuts that make it. Of these lines, with their point in this box (M).
+  std::optional<Interval> lines;
+  std::array<std::optional<Interval>, 3> at;
   SourceSpan place;
 };
 
 struct Setup {
   Settings settings;
   std::vector<Body> bodies;
-  std::vector<double> epsilon;       ///< per body: the band of its own stiffness
+  std::vector<double> epsilon;  ///< per body: the band of its own stiffness
+  /// Per body: the link of the machine that it and its base point go with; empty: none.
+  std::vector<std::string> links;
+  std::vector<SourceSpan> link_places;
   std::vector<std::string> changes;  ///< what the repairs did: "body 'x', e: row z turned"
   std::map<std::string, Material> materials;
   std::vector<ToolEntry> tools;

@@ -83,6 +83,9 @@ class Structure {
   explicit Structure(std::vector<Body> bodies);
 
   const std::vector<Body>& bodies() const { return bodies_; }
+  /// For bodies that go with a moving machine: base point, compliance, or place of the beam. What
+  /// carries it stays.
+  Body& body(std::size_t index) { return bodies_[index]; }
   /// Per body: +1 on the tool's side of the contact, −1 on the work's, 0 on both or none.
   std::vector<int> signs(const Contact& contact) const;
 
