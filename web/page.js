@@ -192,6 +192,35 @@
       fixed(report.stock.removed_mm3 / 1000, 2) + ' cm³ of ' + fixed(report.stock.initial_mm3 / 1000, 2) +
       ' cm³; what is left is in part.stl (grid ' + fixed(report.stock.pitch_mm, 3) + ' mm)'));
   }
+  if (report.accuracy) {
+    const host = by('accuracy'), found = report.accuracy;
+    host.hidden = false;
+    const um = value => fixed(value, 1) + ' µm';
+    const at = item => item.line ? ' (line ' + item.line + ')' : '';
+    host.append(make('h2', {}, 'Accuracy'), make('p', {}, 'Verdict: ' + found.verdict + '. ' + found.stretches +
+      ' stretches, ' + fixed(found.time_s, 1) + ' s in the material. Forces: ' + found.sources.join('; ')));
+    if (found.tools.length)
+      host.append(table([
+        {title: 'tool', number: true, of: t => 'T' + t.tool, sort: t => t.tool},
+        {title: 'in the material', number: true, of: t => clock(t.time_s), sort: t => t.time_s},
+        {title: 'force', number: true, of: t => fixed(t.F_cut_N.value, 0) + ' N' + at(t.F_cut_N), sort: t => t.F_cut_N.value},
+        {title: 'power', number: true, of: t => fixed(t.power_kW.value, 2) + ' kW', sort: t => t.power_kW.value},
+        {title: 'surface off by', number: true, of: t => um(t.delta_min_um.value) + ' … ' + um(t.delta_max_um.value) + at(t.delta_max_um), sort: t => t.delta_max_um.value},
+        {title: 'mean', number: true, of: t => um(t.delta_mean_um), sort: t => t.delta_mean_um},
+        {title: 'shares of the bodies', of: t => t.split.map(s => s.body + ' ' + um(s.delta_mean_um)).join(', ')},
+      ], found.tools));
+    if (found.dimensions.length)
+      host.append(table([
+        {title: 'size', of: d => d.name},
+        {title: 'error', number: true, of: d => d.unchecked ? 'not known: ' + d.unchecked : um(d.error_min_um) + ' … ' + um(d.error_max_um)},
+        {title: 'over a batch', number: true, of: d => d.scatter ? um(d.scatter.low_um) + ' … ' + um(d.scatter.high_um) : ''},
+        {title: 'tolerance', number: true, of: d => d.tolerance_um ? um(d.tolerance_um[0]) + ' … ' + um(d.tolerance_um[1]) : 'none'},
+        {title: 'fits', of: d => d.fits === undefined ? '' : d.fits ? 'yes' : 'no'},
+      ], found.dimensions));
+    for (const [name, title] of [['accuracy-time.png', 'Error over time'], ['accuracy-path.png', 'Error over the cut path'],
+      ['accuracy-part.png', 'Predicted error on the part']])
+      if (run.pictures[name]) host.append(make('img', {src: run.pictures[name], alt: title, class: 'sheet'}));
+  }
   by('inputs').append(make('h2', {}, 'Inputs'), table([
     {title: 'what', of: i => i.role}, {title: 'file', of: i => make('code', {}, i.path)},
     {title: 'SHA-256', of: i => make('code', {}, i.sha256 || '')},

@@ -212,6 +212,11 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
                    "the stock for the next job, whose set-up says [stock] file = \"FILE\"")
       ->type_name("FILE");
   c_run
+      ->add_option("--accuracy", run.accuracy,
+                   "bodies, tools, materials (docs/accuracy.md): what the cutting forces do to the "
+                   "sizes of the part")
+      ->type_name("FILE");
+  c_run
       ->add_option("--overrides", run.overrides,
                    "what is set at the panel at which time: feed, rapid and spindle override, hold")
       ->type_name("FILE");

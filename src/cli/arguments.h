@@ -51,6 +51,7 @@ struct RunArguments {
   std::string part;  ///< --part FILE (.stl, .3mf) or `null`; empty: part.stl and .3mf in the folder
   std::string save_stock;  ///< --save-stock FILE
   std::string overrides;   ///< --overrides FILE
+  std::string accuracy;    ///< --accuracy FILE
   double period = 0.001;
   int log_every = 1;
   double near = 2;

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "cli/accuracy_run.h"
 #include "cli/exit_code.h"
 #include "cli/job.h"
 #include "cli/overrides.h"
@@ -124,7 +125,8 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
     fs::remove(folder + "/lines.jsonl", error);
     fs::remove(folder + "/sheet.png", error);
     for (const char* file :
-         {"report.html", "part.stl", "part.3mf", "deviation.ply", "deviation.png"})
+         {"report.html", "part.stl", "part.3mf", "deviation.ply", "deviation.png", "accuracy.json",
+          "accuracy.csv", "accuracy-time.png", "accuracy-path.png"})
       fs::remove(folder + "/" + file, error);
     if (fs::is_directory(folder + "/frames", error))
       for (const auto& entry : fs::directory_iterator(folder + "/frames", error))
@@ -309,6 +311,9 @@ int run_command(const RunArguments& a) {
     if (!read) return refuse(read.error(), a.output);
     overrides = std::move(*read);
   }
+  AccuracyRun accuracy;
+  if (!a.accuracy.empty())
+    if (auto opened = accuracy.open(job, a.accuracy); !opened) return fail(opened.error());
   if (!a.folder.empty())
     if (auto ready = prepare_folder(a.folder, a.force); !ready) return fail(ready.error());
 
@@ -365,6 +370,8 @@ int run_command(const RunArguments& a) {
     replay = std::make_unique<page::Replay>(job.machine, job.tools, **program);
     simulator.add_observer(*replay);
   }
+
+  if (auto ready = accuracy.attach(simulator, a.folder); !ready) return fail(ready.error());
 
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
@@ -428,6 +435,7 @@ int run_command(const RunArguments& a) {
       else if (checks.semantics || !semantics::is_semantic(d.kind))
         report.diagnostics.push_back(d);
   report.findings = std::move(result.findings);
+  accuracy.finish(report);
   report.folder = working_folder();
   if (interpreter.statistics().limit_reached || result.summary.limit_reached)
     report.unknown_cause = "limit";
@@ -458,6 +466,10 @@ int run_command(const RunArguments& a) {
   Diagnostics judged;
   for (const Diagnostic& d : report.diagnostics) judged.add(d);
   report.summary.verdict = sim::judge(report.findings, report.summary, judged, a.output.fail_on);
+  if (!report.accuracy) {
+    const auto& wrong = accuracy.file_errors();
+    report.diagnostics.insert(report.diagnostics.end(), wrong.begin(), wrong.end());
+  }
 
   if (log) {
     if (auto written = log->result(); !written) return fail(written.error());
@@ -469,6 +481,8 @@ int run_command(const RunArguments& a) {
   if (!a.folder.empty()) report.outputs.push_back("lines.jsonl");
   if (auto written = write_part(a, simulator, saved, report); !written)
     return fail(written.error());
+  if (!a.folder.empty())
+    if (auto written = accuracy.write(a.folder, report); !written) return fail(written.error());
   if (pictures && stop_signal == 0) {
     auto history = simulator.stock_history();
     if (!history) return fail(history.error());

@@ -250,7 +250,7 @@ Json pictures(const PageInput& input) {
   for (const sim::Finding& f : input.report.findings)
     if (!f.picture.empty()) names.push_back(f.picture);
   for (const std::string& path : input.report.outputs)
-    if (path == "sheet.png")
+    if (path == "sheet.png" || path.starts_with("accuracy-"))
       names.insert(names.begin() + std::min<std::ptrdiff_t>(1, std::ssize(names)), path);
   for (const std::string& name : names) {
     if (out.contains(utf8(name))) continue;

@@ -1,5 +1,6 @@
 #include "report/accuracy_json.h"
 
+#include "report/accuracy_along.h"
 #include "report/json_items.h"
 
 namespace aircut::report {
@@ -145,7 +146,106 @@ Json diagnostic_item(const Diagnostic& d) {
   return out;
 }
 
+Json worst_item(const process::Worst& worst, double unit = 1) {
+  return {{"value", worst.value * unit}, {"line", worst.span.line}, {"t_s", worst.t}};
+}
+
+Json tool_item(const Setup& setup, const process::ToolSummary& tool) {
+  Json out;
+  out["tool"] = setup.tools[tool.tool].id;
+  out["stretches"] = tool.stretches;
+  out["time_s"] = tool.time;
+  out["removed_mm3"] = tool.volume;
+  out["F_cut_N"] = worst_item(tool.force);
+  out["power_kW"] = worst_item(tool.power);
+  out["torque_Nm"] = worst_item(tool.torque, 1e-3);
+  out["chip_mm"] = worst_item(tool.chip);
+  out["displacement_um"] = worst_item(tool.deflection, 1e3);
+  out["delta_min_um"] = worst_item(tool.least, 1e3);
+  out["delta_max_um"] = worst_item(tool.most, 1e3);
+  out["delta_mean_um"] = tool.mean * 1e3;
+  Json shares = Json::array();
+  for (std::size_t b = 0; b < tool.shares.size(); ++b)
+    if (tool.shares[b] != 0)
+      shares.push_back(
+          {{"body", utf8(setup.bodies[b].name)}, {"delta_mean_um", tool.shares[b] * 1e3}});
+  out["split"] = std::move(shares);
+  return out;
+}
+
 }  // namespace
+
+Json along_item(const AccuracyAlong& along) {
+  Json out;
+  out["verdict"] = along.verdict;
+  out["file"] = utf8(along.file);
+  out["stretches"] = along.summary.stretches;
+  out["time_s"] = along.summary.time;
+  Json tools = Json::array();
+  for (const process::ToolSummary& tool : along.summary.tools)
+    tools.push_back(tool_item(along.setup, tool));
+  out["tools"] = std::move(tools);
+  Json dimensions = Json::array();
+  for (std::size_t i = 0; i < along.summary.dimensions.size(); ++i)
+    dimensions.push_back(
+        dimension_item(along.setup, along.setup.dimensions[i], along.summary.dimensions[i]));
+  out["dimensions"] = std::move(dimensions);
+  Json unchecked = Json::array();
+  for (const std::string& what : along.summary.unchecked) unchecked.push_back(utf8(what));
+  out["unchecked"] = std::move(unchecked);
+  Json sources = Json::array();
+  for (const std::string& source : along.summary.sources) sources.push_back(utf8(source));
+  out["sources"] = std::move(sources);
+  return out;
+}
+
+std::string along_json(const AccuracyAlong& along, const std::string& version,
+                       const std::string& sha256, const std::vector<Diagnostic>& diagnostics) {
+  Json out;
+  out["schema"] = 1;
+  out["aircut"] = version;
+  out["input"] = {{"path", utf8(along.file)}, {"sha256", sha256}};
+  out["settings"] = settings_item(along.setup);
+  out["repairs"] = along.setup.changes;
+  out.update(along_item(along));
+  out["segments"] = "accuracy.csv";
+  Json list = Json::array();
+  for (const Diagnostic& d : diagnostics) list.push_back(diagnostic_item(d));
+  out["diagnostics"] = std::move(list);
+  return json_text(out, 2);
+}
+
+std::string along_text(const AccuracyAlong& along) {
+  const auto um = [](double mm) { return fixed(mm * 1e3, 1); };
+  std::string out = "  accuracy " + along.verdict + ": " + std::to_string(along.summary.stretches) +
+                    " stretches, " + fixed(along.summary.time, 1) + " s in the material\n";
+  for (const process::ToolSummary& tool : along.summary.tools) {
+    out += "             T" + std::to_string(along.setup.tools[tool.tool].id) + "  up to " +
+           fixed(tool.force.value, 0) + " N, " + fixed(tool.power.value, 2) +
+           " kW; surface off by " + um(tool.least.value) + " … " + um(tool.most.value) +
+           " µm, mean " + um(tool.mean);
+    for (std::size_t b = 0; b < tool.shares.size(); ++b)
+      if (tool.shares[b] != 0)
+        out += ", " + printable(along.setup.bodies[b].name) + " " + um(tool.shares[b]);
+    out += "\n";
+  }
+  for (std::size_t i = 0; i < along.summary.dimensions.size(); ++i) {
+    const Dimension& asked = along.setup.dimensions[i];
+    const DimensionResult& d = along.summary.dimensions[i];
+    out += "             size " + printable(asked.name) + ": ";
+    if (!d.unchecked.empty()) {
+      out += "not known, " + d.unchecked + "\n";
+      continue;
+    }
+    out += "off by " + um(d.least) + " … " + um(d.most) + " µm, batch " + um(d.field.low) + " … " +
+           um(d.field.high) + " µm";
+    if (d.capability)
+      out += ", tolerance " + um(asked.tolerance->low) + " … " + um(asked.tolerance->high) +
+             (d.capability->fits ? ": fits" : ": does not fit");
+    out += "\n";
+  }
+  return out;
+}
 
 std::string accuracy_json(const AccuracyReport& report, const Setup& setup, const Result& result) {
   Json out;

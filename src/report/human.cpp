@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "report/accuracy_along.h"
 #include "report/messages.h"
 
 namespace aircut::report {
@@ -212,6 +213,7 @@ std::string summary_text(const RunReport& report, const std::vector<Message>& al
            " allowed), at most " + fixed(s.part->excess, 3) + " mm left on it (" +
            shortest(s.part->tol_excess + s.part->allowance) + " allowed), between rays up to " +
            shortest(s.part->bound) + " mm more\n";
+  if (report.accuracy) out += along_text(*report.accuracy);
   return out;
 }
 

@@ -285,6 +285,7 @@ Json tail_items(const RunReport& report) {
               {"timing", timing},
               {"extents", extents}};
   if (!report.peaks.empty()) out["peaks"] = peaks(report.peaks);
+  if (report.accuracy) out["accuracy"] = along_item(*report.accuracy);
   out.update({{"collision", collision(s.collision)},
               {"stock", stock(s.stock)},
               {"part", part(s.part)},

@@ -22,6 +22,8 @@ Json accepted_items(const RunReport& report);
 Json tail_items(
     const RunReport& report);  ///< waivers, programs, timing, extents, collision, outputs
 
+Json along_item(const AccuracyAlong& along);  ///< of `accuracy`
+
 /// All of result.json.
 Json document(const RunReport& report);
 
