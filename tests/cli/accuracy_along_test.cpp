@@ -159,10 +159,11 @@ TEST_F(AccuracyAlong, WhatIsOverALimitOrUnknownIsToldWithItsLine) {
   EXPECT_TRUE(size.says("shaft.ngc:20:1")) << size.out;
   const Outcome batch = aircut(shaft + with("shaft.toml", "[0, 0.046]", "[0, 0.018]"));
   EXPECT_TRUE(batch.says("error[scatter_too_wide]")) << batch.out;
-  const Outcome unknown = aircut(shaft + with("shaft.toml", "id = 1\nbody", "id = 2\nbody"));
+  const Outcome unknown = aircut(shaft + with("shaft.toml", "law = \"steel45\"\n", ""));
   EXPECT_EQ(unknown.code, 2);
-  EXPECT_TRUE(unknown.says("T1 is not under [[tools]]")) << unknown.out;
-  EXPECT_TRUE(unknown.says("force_unknown"));
+  EXPECT_TRUE(unknown.says("the force of T1 is not known: it has no 'law'")) << unknown.out;
+  EXPECT_TRUE(unknown.says("warning[force_unknown]")) << unknown.out;
+  EXPECT_TRUE(unknown.says("shaft.ngc:12:1")) << unknown.out;
   const Outcome moved = aircut(wall + with("wall.toml", "deflection_um = 50", "deflection_um = 1"));
   EXPECT_EQ(moved.code, 1);
   EXPECT_TRUE(moved.says("error[deflection]")) << moved.out;
@@ -171,16 +172,19 @@ TEST_F(AccuracyAlong, WhatIsOverALimitOrUnknownIsToldWithItsLine) {
 TEST_F(AccuracyAlong, AWrongFileStopsThisStageAlone) {
   const Outcome wrong = aircut(shaft + with("shaft.toml", "link = \"slide\"", "link = \"slid\""));
   EXPECT_EQ(wrong.code, 2);
-  EXPECT_TRUE(wrong.says("changed.toml:20:8")) << wrong.out;
+  EXPECT_TRUE(wrong.says("changed.toml:18:8")) << wrong.out;
   EXPECT_TRUE(wrong.says("the machine has no link 'slid'")) << wrong.out;
   EXPECT_TRUE(wrong.says("proven clear")) << "collisions were looked at all the same";
   const Outcome key = aircut(shaft + with("shaft.toml", "version = 1", "version = 1\nspeed = 2"));
   EXPECT_EQ(key.code, 2);
   EXPECT_TRUE(key.says("error[accuracy_invalid]")) << key.out;
   EXPECT_EQ(aircut(shaft + "nowhere.toml").code, 2);
-  // Findings on collisions are the same bytes with and without this stage.
-  const Outcome with_it = aircut(shaft + "programs/accuracy/shaft.toml --format gcc");
-  EXPECT_EQ(with_it.code, 0);
+  // The part is the same, bit for bit, with and without this stage.
+  const std::string job =
+      "run programs/accuracy/wall.ngc -m mill3 --setup programs/mill3-block.setup.toml --part ";
+  EXPECT_EQ(aircut(job + path("a.stl")).code, 0);
+  EXPECT_EQ(aircut(job + path("b.stl") + " --accuracy programs/accuracy/wall.toml").code, 0);
+  EXPECT_EQ(text_of(path("a.stl")), text_of(path("b.stl")));
 }
 
 }  // namespace
