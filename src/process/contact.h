@@ -16,8 +16,8 @@ struct CutContact {
   double diameter = 0;
   double chip = 0;
   double torque = 0, power = 0;  ///< of the tool's own spindle, N·mm and kW without losses
-  Vec3 normal = Vec3::Zero();  ///< out of the surface that is made
-  Vec3 floor = Vec3::Zero();   ///< milled: up from the floor, else zero
+  Vec3 normal = Vec3::Zero();    ///< out of the surface that is made
+  Vec3 floor = Vec3::Zero();     ///< milled: up from the floor, else zero
   const accuracy::Material* material = nullptr;
 };
 
