@@ -184,6 +184,7 @@ interp::Options interpreter_options(const Job& job, const ProgramArguments& argu
       if (axes.has(axis) && (named.has(axis) || !job.imported)) options.axes.add(axis);
     if (const auto tip = job.machine->kinematics().forward(job.start, {})) options.start = *tip;
     options.kinematics = switch_of(job);
+    sim::use_tool_change(*job.machine, options);
   }
   const bool automatic = arguments.dialect == "auto";
   const bool named = !arguments.dialect.empty() && !automatic;

@@ -446,6 +446,10 @@ int run_command(const RunArguments& a) {
   }
   report.held_by = line_times.held();
   report.operations = operations.list();
+  report.planner = planner.statistics();
+  if (log)
+    if (const auto chord = log->chord_error())
+      report.chord_error = {chord->value, chord->t, chord->line};
   if (log)
     for (std::size_t j = 0; j < log->peaks().size(); ++j) {
       const auto at = [&](std::size_t order) {

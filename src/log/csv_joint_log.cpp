@@ -158,6 +158,7 @@ struct CsvJointLog::Impl {
   void step(const sim::Step& step);
   void sample(const sim::Step& step, double t);
   void row(const plan::Segment& segment, const motion::JointState& state, double t);
+  void note_chord(const plan::Segment& segment, const motion::JointState& state, double t);
   void finish();
   std::string header() const;
   void flush();
@@ -205,6 +206,7 @@ struct CsvJointLog::Impl {
   motion::JointState rest_state;
   Expected<void> result = {};
   PeakWatch watch;
+  ChordError chord;
 };
 
 void CsvJointLog::Impl::step(const sim::Step& step) {
@@ -271,6 +273,7 @@ void CsvJointLog::Impl::row(const plan::Segment& segment, const motion::JointSta
       q[j] = state.q[static_cast<Eigen::Index>(j)] * scale[j];
     watch.row(q, options.period, t, segment.command.span.line);
   }
+  if (options.every == 1) note_chord(segment, state, t);
   if (segment.trip && state.s >= *segment.trip) flags |= probe_tripped;
   joints(state.v);
   joints(state.a);
@@ -294,6 +297,24 @@ void CsvJointLog::Impl::row(const plan::Segment& segment, const motion::JointSta
   rows += '\n';
   ++written;
   if (rows.size() > flush_size) flush();
+}
+
+// Between rows the tip leaves the chord of the joints by T²/8 times the acceleration that is left
+// with steady joints: with its second difference over half a period to either side, by half of
+// that.
+void CsvJointLog::Impl::note_chord(const plan::Segment& segment, const motion::JointState& state,
+                                   double t) {
+  const machine::Kinematics& kinematics = plan::kinematics_of(segment, machine.kinematics());
+  if (kinematics.type() == "identity" || state.v.isZero(0)) return;
+  const machine::JointVector half = options.period / 2 * state.v;
+  const auto tip = [&](const machine::JointVector& q) {
+    return kinematics.forward(q, segment.tool_offset);
+  };
+  const auto before = tip(state.q - half), here = tip(state.q), after = tip(state.q + half);
+  if (!before || !here || !after) return;
+  const AxisValues bend = *before - *here + (*after - *here);
+  const double value = std::hypot(bend[Axis::x], bend[Axis::y], bend[Axis::z]) / 2;
+  if (value > chord.value) chord = {value, t, segment.command.span.line};
 }
 
 void CsvJointLog::Impl::flush() {
@@ -397,6 +418,10 @@ void CsvJointLog::on_start(const sim::Scene&, const sim::JointVector& joints) {
 void CsvJointLog::on_step(const sim::Step& step) { impl_->step(step); }
 void CsvJointLog::on_finish(const sim::Summary&) { impl_->finish(); }
 Expected<void> CsvJointLog::result() const { return impl_->result; }
+std::optional<ChordError> CsvJointLog::chord_error() const {
+  if (impl_->options.every != 1) return std::nullopt;
+  return impl_->chord;
+}
 const std::vector<JointPeak>& CsvJointLog::peaks() const { return impl_->watch.peaks(); }
 
 }  // namespace aircut::log

@@ -32,6 +32,14 @@ struct JointPeak {
   std::array<At, 3> of;  ///< speed, acceleration, jerk
 };
 
+/// How far the tip can be from the path between two rows when the drives join them by straights of
+/// the joints.
+struct ChordError {
+  double value = 0;  ///< mm, at most
+  double t = 0;      ///< s
+  std::uint64_t line = 0;
+};
+
 /// Samples q(t) at every period and writes `joints.csv`; complete or absent.
 class CsvJointLog final : public sim::Observer {
  public:
@@ -46,6 +54,8 @@ class CsvJointLog final : public sim::Observer {
   Expected<void> result() const;
   /// By joint, after on_finish; empty when not every sample was written.
   const std::vector<JointPeak>& peaks() const;
+  /// The largest of all rows, after on_finish; nothing when not every sample was written.
+  std::optional<ChordError> chord_error() const;
 
  private:
   CsvJointLog();

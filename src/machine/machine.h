@@ -214,6 +214,10 @@ struct Spindle {
 
 struct ToolChange {
   double seconds = 0;
+  /// Before it these axes go to this machine position.
+  std::optional<std::pair<AxisSet, AxisValues>> position;
+  std::string program;  ///< sub that M6 calls instead; its file has that name. Empty: none
+  SourceSpan program_span;
 };
 
 enum class UserCodeKind : unsigned char { ignore, time, program, unknown, kinematics };

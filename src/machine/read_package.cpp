@@ -21,16 +21,58 @@ double seconds(config::Table& table, const std::string& key) {
   return 0;
 }
 
-void read_tool_change(config::Table& top, Machine& machine) {
+// X Y Z, or A B C too, or U V W too, as the control has it.
+void read_change_position(config::Table& table, Machine& machine, double unit_mm) {
+  const auto values = table.numbers("position", 0);
+  if (!values) return;
+  if (values->size() != 3 && values->size() != 6 && values->size() != 9)
+    return table.error("position", "'position' takes 3, 6 or 9 numbers: X Y Z, A B C, U V W");
+  const AxisSet axes = machine.kinematics_ ? machine.kinematics().axes() : AxisSet{};
+  AxisSet moved;
+  AxisValues position;
+  for (std::size_t i = 0; i < values->size(); ++i) {
+    const Axis axis = all_axes[i];
+    if (axes.has(axis)) {
+      moved.add(axis);
+      position[axis] = (*values)[i] * (is_rotary(axis) ? M_PI / 180 : unit_mm);
+    } else if ((*values)[i] != 0) {
+      table.error("position", "'position' has a value for " + std::string(1, letter(axis)) +
+                                  ", which this machine has not; write 0 there");
+    }
+  }
+  machine.tool_change_.position = {moved, position};
+}
+
+// subs/toolchange.ngc: the package's folder `subs` is where called subs are looked for.
+void read_change_program(config::Table& table, ReadState& state) {
+  const auto path = table.text("program");
+  if (!path) return;
+  const std::string folder = "subs/", ending = ".ngc";
+  const auto is_name = [](const std::string& name) {
+    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+      return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+    });
+  };
+  const bool formed = path->starts_with(folder) && path->ends_with(ending) &&
+                      path->size() > folder.size() + ending.size();
+  const std::string name =
+      formed ? path->substr(folder.size(), path->size() - folder.size() - ending.size()) : "";
+  if (!is_name(name))
+    return table.error("program",
+                       "'program' is a file subs/NAME.ngc of the package with the sub o<NAME>; "
+                       "NAME has small letters, digits, '_' and '-'");
+  if (const auto full = state.files.full_path(*path); !full)
+    return table.error("program", full.error().message);
+  state.machine.tool_change_.program = name;
+  state.machine.tool_change_.program_span = table.span("program");
+}
+
+void read_tool_change(config::Table& top, ReadState& state) {
   auto table = top.table("toolchange");
   if (!table) return;
-  machine.tool_change_.seconds = seconds(*table, "time");
-  for (const char* key : {"program", "position"}) {
-    table->know(key);
-    if (table->has(key))
-      table->error(key, "'" + std::string(key) +
-                            "' of a tool change is not supported by this version; only 'time' is");
-  }
+  state.machine.tool_change_.seconds = seconds(*table, "time");
+  read_change_position(*table, state.machine, state.unit_mm);
+  read_change_program(*table, state);
 }
 
 // The number of the channel that the key names, which a program may switch to.
@@ -229,7 +271,7 @@ Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& tex
   check_body_names(top, *machine);
   for (Diagnostic& problem : read_default_fixtures(top, state)) top.report(std::move(problem));
   read_collision(top, *machine, state.unit_mm);
-  read_tool_change(top, *machine);
+  read_tool_change(top, state);
   read_user_codes(top, *machine);
   read_tcp(top, *machine);
   read_files(top, state);

@@ -44,6 +44,8 @@ Chain::Chain(std::size_t max_nodes, const machine::Kinematics& kinematics,
 void Chain::push(Segment&& segment, Grid& grid, double entry, double per_exit) {
   if (entry <= 0) stop();
   nodes_ += grid.nodes();
+  ++all_pieces_;
+  all_nodes_ += grid.nodes();
   Item& item = window_.push_back();
   item.piece.segment = std::move(segment);
   std::swap(item.piece.grid, grid);
@@ -189,6 +191,15 @@ void Chain::hand_out(Segment&& segment) {
   clock_ += segment.duration();
   turns_ += plan::spindle_turns(segment, segment.duration());
   ready_.push_back(std::move(segment));
+}
+
+Statistics Chain::statistics() const {
+  Statistics out{all_pieces_, all_nodes_, 0, 0};
+  if (jerk_) {
+    out.jerk_windows = jerk_->windows();
+    out.newton_steps = jerk_->newton_steps();
+  }
+  return out;
 }
 
 std::optional<Segment> Chain::take() {

@@ -36,6 +36,7 @@ class Chain {
   std::optional<Segment> take();
   /// Revolutions of the spindle at the end of what was handed out.
   double spindle_turns() const { return turns_; }
+  Statistics statistics() const;
 
  private:
   struct Item {
@@ -76,7 +77,8 @@ class Chain {
   std::size_t max_nodes_;
   JointLimits limits_;
   Ring<Item> window_;
-  std::size_t nodes_ = 0;       ///< in the window
+  std::size_t nodes_ = 0;                         ///< in the window
+  std::uint64_t all_pieces_ = 0, all_nodes_ = 0;  ///< that came in
   std::size_t next_try_ = 512;  ///< nodes at which it is worth looking for final pieces
   double b_ = 0;      ///< squared speed at the start of the window, in its first piece's s
   double clock_ = 0;  ///< program time, s

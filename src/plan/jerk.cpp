@@ -172,6 +172,12 @@ void JerkStage::read_stations() {
   }
 }
 
+NodePlan JerkStage::solved(std::vector<double> x, const NodePlan* before, Trim trim) {
+  NodePlan plan = solve_on(window_, std::move(x), before, std::move(trim));
+  newton_steps_ += plan.steps;
+  return plan;
+}
+
 WindowLaw JerkStage::law_of_plan(const NodePlan& plan) const {
   return law_of(window_, plan, window_.start.from_rest ? LawKnot{} : state_at(law_, final_t_));
 }
@@ -192,7 +198,7 @@ bool JerkStage::keep_limits(NodePlan& plan, WindowLaw& law) {
     Trim trim = plan.trim;
     trim_around(excess, window_, plan, law, round >= first_slower_repair, trim);
     const NodePlan before = std::move(plan);
-    plan = solve_on(window_, before.x, &before, std::move(trim));
+    plan = solved(before.x, &before, std::move(trim));
     if (plan.good) law = law_of_plan(plan);
   }
   return false;
@@ -243,12 +249,13 @@ void JerkStage::go_gently() {
 void JerkStage::plan_window(bool to_stop) {
   read_stations();
   const double period = window_.period;
-  NodePlan plan = solve_on(window_, first_mesh(window_, 3 * period), nullptr, {});
+  ++windows_;
+  NodePlan plan = solved(first_mesh(window_, 3 * period), nullptr, {});
   WindowLaw law = law_of_plan(plan);
   for (int round = 0; round < most_meshes; ++round) {
     const NodePlan before = std::move(plan);
     std::vector<double> wanted;
-    plan = solve_on(window_, mesh_on(window_, law, period, wanted), &before, {});
+    plan = solved(mesh_on(window_, law, period, wanted), &before, {});
     law = law_of_plan(plan);
     if (is_fine(law.time, wanted)) break;
   }

@@ -33,6 +33,9 @@ class JerkStage {
   double ramp_time() const { return ramp_time_; }
   /// Segments whose time law is final, in order.
   std::vector<Segment> take();
+  /// Windows that were planned, and steps of the solver for all of them.
+  std::uint64_t windows() const { return windows_; }
+  std::uint64_t newton_steps() const { return newton_steps_; }
 
  private:
   JerkStage(const JerkStage&) = default;
@@ -45,6 +48,7 @@ class JerkStage {
   bool keep_limits_slowly(NodePlan& plan, WindowLaw& law);
   void go_gently();
   void read_stations();
+  NodePlan solved(std::vector<double> x, const NodePlan* before, Trim trim);
   WindowLaw law_of_plan(const NodePlan& plan) const;
   std::vector<Excess> logged_excess(const std::vector<LawKnot>& law, double until) const;
   double slowness(std::vector<LawKnot> law, double until);
@@ -70,7 +74,8 @@ class JerkStage {
   double rest_x_ = 0;         ///< and this is where
   double cut_t_ = 0;          ///< end of the last segment that went out
   double clock_ = 0;          ///< program time there, s
-  std::string problem_;       ///< why a limit is passed on the stretch that goes out; mostly empty
+  std::uint64_t windows_ = 0, newton_steps_ = 0;
+  std::string problem_;  ///< why a limit is passed on the stretch that goes out; mostly empty
 };
 
 }  // namespace aircut::plan

@@ -121,6 +121,7 @@ NodePlan solve_on(const JerkWindow& w, std::vector<double> x, const NodePlan* be
   JerkSolution solution = solve(problem, acceleration_room);
   NodePlan plan;
   plan.good = solution.violation < largest_violation;
+  plan.steps = static_cast<std::uint64_t>(solution.rounds);
   plan.x = std::move(x);
   plan.trim = std::move(trim);
   plan.b = std::move(solution.b);

@@ -51,6 +51,7 @@ struct NodePlan {
   std::vector<double> q;    ///< joint accelerations by cell, joint after joint
   std::vector<Cause> cause;
   bool good = false;
+  std::uint64_t steps = 0;  ///< of the solver
 };
 
 /// A plan's time law.

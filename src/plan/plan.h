@@ -254,6 +254,14 @@ struct Options {
   std::size_t max_nodes = 200000;  ///< look-ahead window; a node takes about 150 bytes
 };
 
+/// What the planning has cost so far.
+struct Statistics {
+  std::uint64_t pieces = 0;        ///< of path
+  std::uint64_t nodes = 0;         ///< along them, at which limits were looked at
+  std::uint64_t jerk_windows = 0;  ///< stretches that were planned with limited jerk
+  std::uint64_t newton_steps = 0;  ///< of their solver
+};
+
 class Planner {
  public:
   /// `start` is where the joints are; the tip follows from forward kinematics.
@@ -276,6 +284,7 @@ class Planner {
   const AxisValues& tip() const;
   /// The next final segment, in order; empty when more input (or flush) is needed.
   std::optional<Segment> take();
+  Statistics statistics() const;
 
  private:
   class Impl;

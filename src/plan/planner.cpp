@@ -27,6 +27,7 @@ class Planner::Impl {
   std::optional<Segment> take() { return shaper_.take(); }
   Expected<void> probe(const canon::Command& command, std::optional<double> trip);
   const AxisValues& tip() const { return tip_; }
+  Statistics statistics() const { return shaper_.statistics(); }
   Segment straight_way(const canon::Command& command) const;
 
  private:
@@ -595,6 +596,7 @@ Segment Planner::straight_way(const canon::Command& command) const {
   return impl_->straight_way(command);
 }
 void Planner::flush() { impl_->flush(); }
+Statistics Planner::statistics() const { return impl_->statistics(); }
 std::optional<Segment> Planner::take() { return impl_->take(); }
 
 }  // namespace aircut::plan

@@ -48,6 +48,7 @@ class Shaper {
   void push_planned(Segment segment, const machine::JointVector& end);
   /// Revolutions of the spindle; after stop() those at the end of everything.
   double spindle_turns() const { return chain_.spindle_turns(); }
+  Statistics statistics() const { return chain_.statistics(); }
 
   /// What follows is in this kinematics, which must outlive the shaper; the motion rests.
   void switch_to(const machine::Kinematics& kinematics);

@@ -286,6 +286,14 @@ Json tail_items(const RunReport& report) {
               {"extents", extents}};
   if (!report.peaks.empty()) out["peaks"] = peaks(report.peaks);
   if (report.accuracy) out["accuracy"] = along_item(*report.accuracy);
+  if (report.planner.pieces > 0)
+    out["planner"] = {{"pieces", report.planner.pieces},
+                      {"nodes", report.planner.nodes},
+                      {"jerk_windows", report.planner.jerk_windows},
+                      {"newton_steps", report.planner.newton_steps}};
+  if (const auto& chord = report.chord_error)
+    out["chord_error"] = {
+        {"value", chord->value}, {"unit", "mm"}, {"t_s", chord->t}, {"line", chord->line}};
   out.update({{"collision", collision(s.collision)},
               {"stock", stock(s.stock)},
               {"part", part(s.part)},

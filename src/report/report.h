@@ -89,11 +89,13 @@ struct RunReport {
   std::vector<Operation> operations;              ///< with time, in order
   std::vector<JointPeak> peaks;                   ///< empty without a joint log of every sample
   std::shared_ptr<const AccuracyAlong> accuracy;  ///< null when it was not asked for
-  std::vector<std::string> outputs;               ///< relative to the output folder
-  std::vector<Unit> units;                        ///< empty when there was one program
-  std::vector<Accepted> accepted;                 ///< not among diagnostics and findings
-  std::vector<Waiver> waivers;                    ///< all that were given
-  std::optional<std::size_t> baseline_gone;       ///< of the baseline, what was not found again
+  std::optional<JointPeak::At> chord_error;       ///< mm; nothing without such a log
+  plan::Statistics planner;
+  std::vector<std::string> outputs;          ///< relative to the output folder
+  std::vector<Unit> units;                   ///< empty when there was one program
+  std::vector<Accepted> accepted;            ///< not among diagnostics and findings
+  std::vector<Waiver> waivers;               ///< all that were given
+  std::optional<std::size_t> baseline_gone;  ///< of the baseline, what was not found again
   std::string folder;         ///< where paths in fingerprints begin, absolute; empty: as written
   std::string unknown_cause;  ///< `input`, `limit`, `usage`, `output`; empty: something unchecked
   std::optional<Severity> fail_on = Severity::error;  ///< from here on the verdict is `fail`

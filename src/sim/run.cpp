@@ -1,5 +1,7 @@
 // The whole data flow in one loop: program text → commands → segments → machine, checks, observers.
 
+#include <algorithm>
+
 #include "sim/sim.h"
 
 namespace aircut::sim {
@@ -20,6 +22,23 @@ interp::KinematicsSwitch kinematics_switch(const machine::Machine& machine) {
   out.tcp_on = machine.tcp_on();
   out.tcp_off = machine.tcp_off();
   return out;
+}
+
+void use_tool_change(const machine::Machine& machine, interp::Options& options) {
+  const machine::ToolChange& change = machine.tool_change();
+  if (change.position && !options.tool_change_position)
+    options.tool_change_position = change.position;
+  const auto of_tool_change = [](const interp::Remap& remap) { return remap.name == "M6"; };
+  if (change.program.empty() ||
+      std::any_of(options.remaps.begin(), options.remaps.end(), of_tool_change))
+    return;
+  interp::Remap remap;
+  remap.code = 6;
+  remap.modal_group = 6;
+  remap.ngc = change.program;
+  remap.name = "M6";
+  remap.span = change.program_span;
+  options.remaps.push_back(std::move(remap));
 }
 
 Simulator::Result run(interp::Interpreter& interpreter, const Diagnostics& diagnostics,

@@ -399,6 +399,8 @@ struct RunOptions {
 
 /// What a program can do to switch the kinematics of this machine, as options of the interpreter.
 interp::KinematicsSwitch kinematics_switch(const machine::Machine& machine);
+/// What the machine does at a tool change, where the options do not say it themselves.
+void use_tool_change(const machine::Machine& machine, interp::Options& options);
 
 /// The main loop: program → commands → segments → machine. Errors of the program are in the
 /// interpreter's diagnostics; after the first one nothing moves any more, as on the control, and

@@ -170,6 +170,9 @@ TEST_F(LogCommand, ARunTellsWhatHeldEachLineAndTheMostOfEachJoint) {
   // The most of each joint is what the checker reads from the log.
   const Outcome info = aircut("log info " + path("out/joints.csv"));
   const auto& x = document["peaks"]["X"];
+  EXPECT_GT(document["planner"]["pieces"].get<int>(), 2);
+  EXPECT_GE(document["planner"]["nodes"], document["planner"]["pieces"]);
+  EXPECT_EQ(document["chord_error"]["value"], 0) << "each joint is an axis";
   EXPECT_GT(x["acceleration"]["value"].get<double>(), 0);
   EXPECT_EQ(x["acceleration"]["unit"], "mm/s^2");
   EXPECT_TRUE(info.says(std::to_string(x["speed"]["line"].get<int>())));

@@ -33,6 +33,12 @@ TEST(ReadMachine, ReadsWhatTheFileSays) {
   EXPECT_EQ(machine->rapid(), RapidMode::dogleg);
   EXPECT_EQ(machine->tip_acceleration(), 2540);
   EXPECT_EQ(machine->tool_change().seconds, 2.5);
+  EXPECT_EQ(machine->tool_change().program, "change");
+  ASSERT_TRUE(machine->tool_change().position);
+  const auto& [axes, position] = *machine->tool_change().position;
+  EXPECT_TRUE(axes.has(Axis::x) && axes.has(Axis::z) && axes.has(Axis::a) && !axes.has(Axis::y));
+  EXPECT_EQ(position[Axis::z], -50.8);
+  EXPECT_NEAR(position[Axis::a], M_PI / 6, 1e-15);
   EXPECT_EQ(machine->spindle().link, bed_link);
   EXPECT_EQ(machine->spindle().min_rpm, 10);
   EXPECT_EQ(machine->spindle().max_rpm, 8000);
@@ -110,7 +116,7 @@ TEST(ReadMachine, BodiesHaveMeshPlaceAndColour) {
   EXPECT_EQ(saddle.name, "saddle");  // named by its link
   EXPECT_FALSE(saddle.collide);
   EXPECT_DOUBLE_EQ(bounds(*saddle.mesh).sizes().x(), 254);
-  EXPECT_EQ(saddle.span.line, 92u);
+  EXPECT_EQ(saddle.span.line, 94u);
 }
 
 TEST(ReadMachine, FixturesStandWhereTheirFileSays) {

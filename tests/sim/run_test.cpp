@@ -38,6 +38,26 @@ TEST(Run, TakesTheMachinesWordForUserCodes) {
   EXPECT_EQ(r.verdict, Verdict::pass);
 }
 
+// `high` of X and what Y Z reached, after a tool change on this machine.
+sim::Summary summary_of_change(BoxMachine& box, const machine::Machine& machine) {
+  tool::ToolTable tools;
+  tools.tools.emplace_back().number = 1;
+  const RunResult r =
+      run_program("G21 G90 G61\nT1 M6\nM2\n", std::make_shared<machine::Machine>(machine), tools,
+                  box.sources());
+  for (const Diagnostic& d : r.diagnostics.list()) ADD_FAILURE() << d.message;
+  return r.summary;
+}
+
+TEST(Run, GoesToTheMachinesPositionForAToolChange) {
+  BoxMachine box("[toolchange]\ntime = 2\nposition = [10.0, -20.0, 30.0]\n");
+  const sim::Summary summary = summary_of_change(box, *box.machine());
+  EXPECT_NEAR(summary.joints[0].high, 10, 1e-2);
+  EXPECT_NEAR(summary.joints[1].low, -20, 1e-2);
+  EXPECT_NEAR(summary.joints[2].high, 30, 1e-2);
+  EXPECT_EQ(summary.tool_change_time, 2);
+}
+
 TEST(Run, FailsWhereThePlannerCouldNotKeepALimit) {
   BoxMachine box;
   const auto machine = box.machine();

@@ -51,6 +51,7 @@ inline RunResult run_program(const std::string& text,
   if (const auto tip = machine->kinematics().forward(start, {})) options.start = *tip;
   options.dialect = dialect;
   options.kinematics = sim::kinematics_switch(*machine);
+  sim::use_tool_change(*machine, options);
   interp::Interpreter interpreter(
       program, tools, {}, options, [&](const std::string& path) { return sources.open(path); },
       out.diagnostics);
