@@ -34,7 +34,7 @@ class ByTool : public ::testing::Test {
     add(first, {-40, 0, 15}, {40, 0, 15}, 3);
   }
   void add(const stock::CutterProfile* cutter, const Vec3& from, const Vec3& to, double t) {
-    ASSERT_TRUE(tape.add({cutter, from, to, Vec3::UnitZ(), 0}, t));
+    ASSERT_TRUE(tape.add({cutter, from, to, Vec3::UnitZ(), 0}, t - 1, t));
   }
   std::map<int, TriangleMesh> at(double t) {
     const auto history = tape.play(block(), 300);
@@ -80,6 +80,14 @@ TEST_F(ByTool, ASurfaceBelongsToTheToolThatMadeItLast) {
 TEST_F(ByTool, OnlyWhatIsCutByThenIsTold) {
   EXPECT_EQ(at(1).count(7), 0u);
   EXPECT_EQ(at(2).count(7), 1u);
+}
+
+TEST_F(ByTool, ACutUnderWayIsDoneAsFarAsItIs) {
+  // A quarter of the way from y = -30: the tool's end is at y = -15 and reaches to -10.
+  double farthest = -20;
+  const auto pieces = at(1.25);
+  for (const Vec3& v : pieces.at(7).vertices) farthest = std::max(farthest, v.y());
+  EXPECT_NEAR(farthest, -10, 0.6);
 }
 
 TEST_F(ByTool, ThePiecesAreTheWholeSurface) {

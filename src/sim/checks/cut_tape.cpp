@@ -19,7 +19,7 @@ namespace aircut::sim {
 namespace {
 
 struct Record {
-  double t = 0;
+  double t0 = 0, t1 = 0;  // of the program
   double start[3], end[3], axis[3];
   std::uint64_t cutter = 0;  // index
 };
@@ -94,8 +94,12 @@ class Player final : public StockHistory {
 
   Expected<std::shared_ptr<const TriangleMesh>> at(double t) override {
     bool changed = !mesh_;
-    while (more_ && next_.t <= t) {
+    while (more_ && next_.t1 <= t) {
       if (auto done = cut_until(t, std::nullopt); !done) return unexpected(done.error());
+      changed = true;
+    }
+    if (under_way(t)) {
+      if (auto done = cut_begun(t); !done) return unexpected(done.error());
       changed = true;
     }
     if (auto read = read_error(); !read) return unexpected(read.error());
@@ -108,10 +112,14 @@ class Player final : public StockHistory {
   // has made.
   Expected<std::vector<MadeBy>> by_tool(double t) override {
     if (tools_.empty()) look_at_new_places(0);
-    while (more_ && next_.t <= t) {
+    while (more_ && next_.t1 <= t) {
       const int tool = tool_of(next_);
       if (auto done = cut_until(t, tool); !done) return unexpected(done.error());
       look_at_new_places(tool);
+    }
+    if (under_way(t)) {
+      if (auto done = cut_begun(t); !done) return unexpected(done.error());
+      look_at_new_places(tool_of(next_));
     }
     if (auto read = read_error(); !read) return unexpected(read.error());
     return pieces_by_tool();
@@ -134,7 +142,7 @@ class Player final : public StockHistory {
   // Up to time t; with `tool` no farther than the pieces that it cut.
   Expected<void> cut_until(double t, std::optional<int> tool) {
     std::vector<stock::Piece> pieces;
-    while (more_ && next_.t <= t && (!tool || tool_of(next_) == *tool)) {
+    while (more_ && next_.t1 <= t && (!tool || tool_of(next_) == *tool)) {
       if (const auto piece = joiner_.add(piece_of(next_, *cutters_))) pieces.push_back(*piece);
       more_ = read();
       if (pieces.size() < 4096) continue;
@@ -144,6 +152,17 @@ class Player final : public StockHistory {
     if (const auto piece = joiner_.rest()) pieces.push_back(*piece);
     if (pieces.empty()) return {};
     if (auto done = stock_.cut(pieces); !done) return unexpected(done.error());
+    return {};
+  }
+
+  bool under_way(double t) const { return more_ && next_.t0 < t; }
+
+  // What is done of the next piece at time t; it comes as a whole later, which takes the same and
+  // the rest. As if its speed were steady: for a picture.
+  Expected<void> cut_begun(double t) {
+    stock::Piece piece = piece_of(next_, *cutters_);
+    piece.end = piece.start + (t - next_.t0) / (next_.t1 - next_.t0) * (piece.end - piece.start);
+    if (auto done = stock_.cut({&piece, 1}); !done) return unexpected(done.error());
     return {};
   }
 
@@ -251,9 +270,10 @@ const stock::CutterProfile* CutTape::keep(const stock::CutterProfile& cutter, in
   return cutters_->back().profile.get();
 }
 
-Expected<void> CutTape::add(const stock::Piece& piece, double t) {
+Expected<void> CutTape::add(const stock::Piece& piece, double t0, double t1) {
   Record record;
-  record.t = t;
+  record.t0 = t0;
+  record.t1 = t1;
   for (int i = 0; i < 3; ++i) {
     record.start[i] = piece.start[i];
     record.end[i] = piece.end[i];

@@ -29,7 +29,8 @@ class CutTape {
   /// The cutters that the next pieces point to; valid until the tape is gone.
   const stock::CutterProfile* keep(const stock::CutterProfile& cutter, int tool);
   /// `cutter` is a pointer that keep() gave. Error kind `output_failed`.
-  Expected<void> add(const stock::Piece& piece, double t);
+  /// From t0 to t1 of the program's time.
+  Expected<void> add(const stock::Piece& piece, double t0, double t1);
   /// The stock, on a lattice of this pitch, after the first `pieces` of the tape.
   Expected<stock::Stock> stock_after(const machine::RawStock& raw, double pitch,
                                      std::uint64_t pieces);

@@ -229,7 +229,7 @@ void CuttingCheck::flush() {
     const stock::CutterProfile*& kept = taped_[piece.cutter];
     if (!kept) kept = tape_->keep(*piece.cutter, tool_number_);
     piece.cutter = kept;
-    if (auto added = tape_->add(piece, batch_times_[i][1]); !added)
+    if (auto added = tape_->add(piece, batch_times_[i][0], batch_times_[i][1]); !added)
       return give_up(added.error().message);
   }
   batch_.clear();

@@ -68,7 +68,7 @@ bool turns_the_work(const machine::Machine& machine) {
 class TurningTape {
  public:
   struct Record {
-    double t = 0;
+    double t0 = 0, t1 = 0;  ///< of the program
     double at[4] = {};
     std::uint64_t section = 0;
   };
@@ -79,12 +79,12 @@ class TurningTape {
         }) {}
   bool good() const { return file_ != nullptr; }
 
-  bool add(const stock::TurningMove& move, double t) {
+  bool add(const stock::TurningMove& move, double t0, double t1) {
     if (sections_.empty() || last_ != move.section) {
       sections_.push_back(*move.section);
       last_ = move.section;
     }
-    const Record record{t, {move.r0, move.z0, move.r1, move.z1}, sections_.size() - 1};
+    const Record record{t0, t1, {move.r0, move.z0, move.r1, move.z1}, sections_.size() - 1};
     return std::fwrite(&record, sizeof record, 1, file_.get()) == 1;
   }
   /// The tool changes: its sections are no longer there.
@@ -110,16 +110,21 @@ class TurningPlayer final : public StockHistory {
   }
 
   Expected<std::shared_ptr<const TriangleMesh>> at(double t) override {
-    for (; more_ && next_.t <= t; more_ = read()) {
-      stock_.cut({&sections_[next_.section], next_.at[0], next_.at[1], next_.at[2], next_.at[3]});
-      mesh_ = nullptr;
-    }
+    for (; more_ && next_.t1 <= t; more_ = read()) cut(1);
+    // What is done of the next move; it comes as a whole later.
+    if (more_ && next_.t0 < t) cut((t - next_.t0) / (next_.t1 - next_.t0));
     if (std::ferror(file_.get()) != 0) return unexpected(disk_error("can't read a temporary file"));
     if (!mesh_) mesh_ = std::make_shared<TriangleMesh>(stock_.mesh(facets));
     return mesh_;
   }
 
  private:
+  // A share of the next move, as if its speed were steady.
+  void cut(double share) {
+    const auto& [r0, z0, r1, z1] = next_.at;
+    stock_.cut({&sections_[next_.section], r0, z0, r0 + share * (r1 - r0), z0 + share * (z1 - z0)});
+    mesh_ = nullptr;
+  }
   bool read() { return std::fread(&next_, sizeof next_, 1, file_.get()) == 1; }
 
   std::shared_ptr<std::FILE> file_;
@@ -324,7 +329,7 @@ double TurningCheck::cut(const Step& step, const Solid& solid, const StraightMov
     const double taken = stock_->cut(here);
     volume += taken;
     if (gouge && taken > 0) tell_gouge(step, solid, move, *gouge, taken);
-    if (taken > 0 && tape_ && !tape_->add(here, time_at(step, move.s1)))
+    if (taken > 0 && tape_ && !tape_->add(here, time_at(step, move.s0), time_at(step, move.s1)))
       give_up(disk_error("can't write a temporary file").message);
   }
   if (volume > 0)
