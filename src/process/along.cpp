@@ -24,6 +24,7 @@ struct Said {
   std::string kind, text;
   std::size_t tool = 0;
   SourceSpan span;
+  Severity severity = Severity::warning;
   std::size_t count = 0;
 };
 
@@ -84,8 +85,8 @@ class Along::Impl {
   };
   void check_file(Diagnostics& out);
   void place_bodies(const sim::Cut& cut);
-  Answer answer(const CutContact& contact);
-  void solve_depth(const CutContact& contact, Answer& answer);
+  Answer answer(const sim::Cut& cut, const CutContact& contact, std::size_t tool);
+  double depth_at_rest(const sim::Cut& cut, const CutContact& contact, std::size_t tool);
   Field field(const CutContact& contact, const Answer& answer);
   void add_shares(const CutContact& contact, std::size_t tool, const Answer& answer, double weight,
                   std::vector<double>& shares) const;
@@ -94,7 +95,8 @@ class Along::Impl {
   void gather_sizes(const sim::Cut& cut, const CutContact& contact, const Answer& answer,
                     std::size_t tool);
   void row(const sim::Cut& cut, const CutContact& contact, const Answer& answer, std::size_t tool);
-  void say(const char* kind, std::size_t tool, const SourceSpan& span, const std::string& text);
+  void say(const char* kind, std::size_t tool, const SourceSpan& span, const std::string& text,
+           Severity severity = Severity::warning);
   void tell_limits(const ToolSummary& tool, Diagnostics& out) const;
   DimensionResult dimension(std::size_t index, Diagnostics& out);
   std::optional<std::size_t> tool_of(int number) const;
@@ -113,7 +115,8 @@ class Along::Impl {
   std::vector<Said> said_;
   std::optional<OutputFile> table_;
   std::string line_;
-  Structure::Scratch scratch_;
+  Structure::Scratch scratch_;  // has the motions of the bodies for the shares
+  Structure::Scratch trial_;    // of other forces
   std::size_t stretches_ = 0;
   double time_ = 0, way_ = 0, t_end_ = -1;
 };
@@ -140,14 +143,19 @@ Along::Impl::Impl(const Setup& setup, std::shared_ptr<const machine::Machine> ma
 
 void Along::Impl::check_file(Diagnostics& out) {
   std::vector<std::string> names;
-  for (const machine::Link& link : machine_->links()) names.push_back(link.name);
+  std::string all;
+  for (const machine::Link& link : machine_->links()) {
+    names.push_back(link.name);
+    all += (all.empty() ? "" : ", ") + printable(link.name);
+  }
   for (std::size_t b = 0; b < setup_.links.size(); ++b) {
     const std::string& name = setup_.links[b];
     links_.push_back(name.empty() ? std::nullopt : machine_->find_link(name));
     moves_ = moves_ || links_.back();
     if (!name.empty() && !links_.back())
       out.error("accuracy_reference", setup_.link_places[b],
-                "the machine has no link '" + printable(name) + "'." + did_you_mean(name, names));
+                "the machine has no link '" + printable(name) + "', only " + all + "." +
+                    did_you_mean(name, names));
   }
   if (setup_.works.size() != 1) {
     const SourceSpan place = setup_.works.empty() ? SourceSpan{} : setup_.works.back().place;
@@ -171,13 +179,13 @@ std::optional<std::size_t> Along::Impl::tool_of(int number) const {
 }
 
 void Along::Impl::say(const char* kind, std::size_t tool, const SourceSpan& span,
-                      const std::string& text) {
+                      const std::string& text, Severity severity) {
   for (Said& said : said_)
     if (said.tool == tool && said.kind == kind && said.text == text) {
       ++said.count;
       return;
     }
-  said_.push_back({kind, text, tool, span, 1});
+  said_.push_back({kind, text, tool, span, severity, 1});
 }
 
 void Along::Impl::place_bodies(const sim::Cut& cut) {
@@ -202,11 +210,12 @@ void Along::Impl::place_bodies(const sim::Cut& cut) {
 }
 
 // Newton's method for the one tool: its depth answers its displacement.
-void Along::Impl::solve_depth(const CutContact& contact, Answer& out) {
+double Along::Impl::depth_at_rest(const sim::Cut& cut, const CutContact& contact,
+                                  std::size_t tool) {
   const auto row = [&](const Vec3& force, const Vec3& moment) {
     const Load load{force, moment};
     Response moved;
-    structure_.respond({&contact.contact, 1}, {&load, 1}, scratch_, {&moved, 1});
+    structure_.respond({&contact.contact, 1}, {&load, 1}, trial_, {&moved, 1});
     return contact.normal.dot(moved.displacement);
   };
   ToolShare share;
@@ -218,15 +227,23 @@ void Along::Impl::solve_depth(const CutContact& contact, Answer& out) {
   share.offset = row(contact.force.fixed, contact.force.moment);
   share.t = contact.t;
   const CopyingResult solved = solve_copying({{contact.t}, {{share}}});
-  if (solved.converged && !solved.unstable) out.t = solved.t[0];
+  if (solved.unstable)
+    say("statically_unstable", tool, cut.span,
+        "the force pulls " + name(tool) + " deeper than the machine's stiffness holds it back",
+        Severity::error);
+  else if (!solved.converged)
+    say("copying_not_converged", tool, cut.span,
+        "the depth that " + name(tool) +
+            " cuts on the yielding machine was not found; the programmed one is used");
+  return solved.converged ? solved.t[0] : contact.t;
 }
 
 Field Along::Impl::field(const CutContact& contact, const Answer& answer) {
   const Bands& bands = setup_.scatter.bands;
-  const double a = answer.delta;
+  const double a = contact.normal.dot(answer.moved.displacement);
   const Load slope{contact.force.slope(answer.t), Vec3::Zero()};
   Response moved;
-  structure_.respond({&contact.contact, 1}, {&slope, 1}, scratch_, {&moved, 1});
+  structure_.respond({&contact.contact, 1}, {&slope, 1}, trial_, {&moved, 1});
   const double b = contact.normal.dot(moved.displacement);
   const LinearField linear = linear_field({&a, 1}, {&b, 1}, {&contact.dt, 1}, bands);
   Field out{linear.opposed, linear.which, linear.N, linear.D, linear.low, linear.high, {}};
@@ -241,18 +258,13 @@ Field Along::Impl::field(const CutContact& contact, const Answer& answer) {
   return out;
 }
 
-Along::Impl::Answer Along::Impl::answer(const CutContact& contact) {
+Along::Impl::Answer Along::Impl::answer(const sim::Cut& cut, const CutContact& contact,
+                                        std::size_t tool) {
   Answer out;
-  out.t = contact.t;
-  if (setup_.settings.coupled) solve_depth(contact, out);
+  out.t = setup_.settings.coupled ? depth_at_rest(cut, contact, tool) : contact.t;
   out.load = {contact.force.force(out.t), contact.force.moment};
-  if (scatters_ || !setup_.dimensions.empty()) {
-    // Before the displacement, whose motions of the bodies are looked at later.
-    structure_.respond({&contact.contact, 1}, {&out.load, 1}, scratch_, {&out.moved, 1});
-    out.delta = contact.normal.dot(out.moved.displacement);
-    out.field = field(contact, out);
-  }
   structure_.respond({&contact.contact, 1}, {&out.load, 1}, scratch_, {&out.moved, 1});
+  if (scatters_ || !setup_.dimensions.empty()) out.field = field(contact, out);
   const WorkEntry& work = setup_.works[0];
   const Vec3 arm = contact.contact.point - work.axis_point;
   const bool circle = setup_.settings.second_order && contact.cut_law.C > 0;
@@ -314,7 +326,7 @@ void Along::Impl::on_cut(const sim::Cut& cut) {
     return;
   }
   place_bodies(cut);
-  const Answer found = answer(*contact);
+  const Answer found = answer(cut, *contact, *tool);
   if (!found.moved.displacement.allFinite() || !found.load.force.allFinite()) {
     say("force_unknown", *tool, cut.span,
         "the displacement of " + name(*tool) + " is no finite number");
@@ -546,8 +558,12 @@ Summary Along::Impl::finish(Diagnostics& out) {
   for (const Said& said : said_) {
     const std::string often =
         said.count > 1 ? " (" + std::to_string(said.count) + " stretches from here on)" : "";
-    out.warning(said.kind, said.span, said.text + often);
-    if (said.kind == "force_unknown") sum.unchecked.push_back("the accuracy: " + said.text);
+    if (said.severity == Severity::error)
+      out.error(said.kind, said.span, said.text + often);
+    else
+      out.warning(said.kind, said.span, said.text + often);
+    if (said.kind == "force_unknown" || said.kind == "copying_not_converged")
+      sum.unchecked.push_back("the accuracy: " + said.text);
   }
   for (std::size_t i = 0; i < sizes_.size(); ++i) {
     sum.dimensions.push_back(dimension(i, out));

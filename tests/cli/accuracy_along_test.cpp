@@ -169,6 +169,20 @@ TEST_F(AccuracyAlong, WhatIsOverALimitOrUnknownIsToldWithItsLine) {
   EXPECT_TRUE(moved.says("error[deflection]")) << moved.out;
 }
 
+TEST_F(AccuracyAlong, ADepthThatIsNotAtRestIsTold) {
+  // The tool is pushed out, and a joint that answers the wrong way round pulls it in.
+  std::string text = shipped("shaft.toml");
+  const std::string version = "version = 1\n", turret = "e = [[0.014,";
+  text.replace(text.find(version), version.size(),
+               "version = 1\ncoupled = true\nsign_policy = \"as_given\"\n");
+  text.replace(text.find(turret), turret.size(), "e = [[-30,");
+  put("digs.toml", text);
+  const Outcome digs = aircut(shaft + path("digs.toml"));
+  EXPECT_EQ(digs.code, 1);
+  EXPECT_TRUE(digs.says("error[statically_unstable]: the force pulls T1 deeper")) << digs.out;
+  EXPECT_TRUE(digs.says("shaft.ngc:")) << digs.out;
+}
+
 TEST_F(AccuracyAlong, AWrongFileStopsThisStageAlone) {
   const Outcome wrong = aircut(shaft + with("shaft.toml", "link = \"slide\"", "link = \"slid\""));
   EXPECT_EQ(wrong.code, 2);

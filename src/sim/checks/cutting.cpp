@@ -454,12 +454,7 @@ void CuttingCheck::look_at_part(const Step& step, const Solid& cutter, const Str
         const auto touch = part_->depth(part);
         return touch && touch->depth > 0;
       });
-  f.body_b = "part";
-  f.pair = "cutter-part";
-  f.message = "cutter `" + cutter.name + "` goes into the part";
-  f.depth_bound = part_->bound();
-  f.limit = part_->design().gouge;
-  f.unit = "mm";
+  part_->describe(f, cutter.name);
   f.remedy =
       "check the depth, the tool's length and radius offsets, and where the part stands ([part])";
   if (auto taken = part_->take(whole, f, *depth); !taken) return give_up(taken.error().message);

@@ -68,6 +68,15 @@ Expected<void> PartWatch::take(const stock::Piece& piece, const Finding& row,
   return part_.take(piece, touch.depth);
 }
 
+void PartWatch::describe(Finding& row, const std::string& cutter) const {
+  row.body_b = "part";
+  row.pair = "cutter-part";
+  row.message = "cutter `" + cutter + "` goes into the part";
+  row.depth_bound = bound();
+  row.limit = design_.gouge;
+  row.unit = "mm";
+}
+
 void PartWatch::note(const Finding& row, const stock::Touch& touch) {
   if (cuts_.size() < most_cuts) cuts_.push_back({row, touch});
 }

@@ -25,6 +25,8 @@ class PartWatch {
   const stock::Part* part() const { return &part_; }
   double bound() const { return pitch_ / 2; }  ///< of depths, mm
 
+  /// What a row of kind gouge_live says of the part, whatever `cutter` it is that goes into it.
+  void describe(Finding& row, const std::string& cutter) const;
   /// How deep the piece goes into what is left of the part; 0 within the tolerance.
   Expected<stock::Touch> depth(const stock::Piece& piece) const;
   /// Takes it off the part; `row` tells of it.

@@ -345,12 +345,7 @@ void TurningCheck::tell_gouge(const Step& step, const Solid& solid, const Straig
   touch.point = gouge.r * across_ + gouge.z * Vec3::UnitZ();
   Finding f = cut_row(Kind::gouge_live, step, move, {solid.name, solid.role}, *raw_, touch.point,
                       [](double part) { return part >= 1; });
-  f.body_b = "part";
-  f.pair = "cutter-part";
-  f.message = "cutter `" + solid.name + "` goes into the part";
-  f.depth_bound = watch_->bound();
-  f.limit = watch_->design().gouge;
-  f.unit = "mm";
+  watch_->describe(f, solid.name);
   f.remedy = "check the diameter, the tool's offsets and nose, and where the part stands ([part])";
   // It goes all around; the result is compared at eight places.
   for (int i = 0; i < 8; ++i) {
