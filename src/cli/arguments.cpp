@@ -7,6 +7,7 @@
 #include "cli/accuracy_arguments.h"
 #include "cli/exit_code.h"
 #include "cli/log_arguments.h"
+#include "cli/usage.h"
 
 namespace aircut::cli {
 
@@ -141,20 +142,6 @@ Expected<std::pair<int, int>> picture_size(const std::string& text) {
   return std::pair(static_cast<int>(w), static_cast<int>(h));
 }
 
-int usage_error(const Diagnostic& d, const std::string& command) {
-  std::fputs(format_human(d, {}).c_str(), stderr);
-  std::fprintf(stderr, "see aircut %s--help\n", command.empty() ? "" : (command + " ").c_str());
-  return code(ExitCode::unknown);
-}
-
-// All option names of a command, for "did you mean".
-std::vector<std::string> option_names(const CLI::App* app) {
-  std::vector<std::string> out;
-  for (const CLI::Option* option : app->get_options())
-    for (const std::string& name : option->get_lnames()) out.push_back("--" + name);
-  return out;
-}
-
 }  // namespace
 
 std::variant<Arguments, int> parse(int argc, char** argv) {
@@ -189,7 +176,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       ->required();
   c_run
       ->add_option("-m,--machine", run.program.machine,
-                   "package folder, machine.toml, or a shipped name")
+                   "shipped name, package folder, machine.toml, LinuxCNC .ini or robot .urdf")
       ->required()
       ->type_name("MACHINE");
   c_run->add_option("--setup", run.program.setup, "setup.toml: fixtures, work offsets, start")
@@ -314,7 +301,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
                                MachineArguments::Action action) {
     CLI::App* c = c_machine->add_subcommand(name, text);
     c->add_option("-m,--machine,MACHINE", machine.machine,
-                  "package folder, machine.toml, or a shipped name")
+                  "shipped name, package folder, machine.toml, LinuxCNC .ini or robot .urdf")
         ->required()
         ->type_name("MACHINE");
     c->add_option("--setup", machine.setup, "setup.toml")->type_name("FILE");
@@ -385,7 +372,8 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   c_kin->require_subcommand(1);
   const auto add_kin = [&](const char* name, const char* text, KinArguments::Action action) {
     CLI::App* c = c_kin->add_subcommand(name, text);
-    c->add_option("-m,--machine", kin.machine, "package folder, machine.toml, or a shipped name")
+    c->add_option("-m,--machine", kin.machine,
+                  "shipped name, package folder, machine.toml, LinuxCNC .ini or robot .urdf")
         ->type_name("MACHINE");
     c->add_option("--type", kin.type,
                   "a kinematics without a package, by the `type` of its machine.toml")
@@ -459,7 +447,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       "--tilt-b=-25:25");
   c_workspace
       ->add_option("-m,--machine", workspace.machine,
-                   "package folder, machine.toml, or a shipped name")
+                   "shipped name, package folder, machine.toml, LinuxCNC .ini or robot .urdf")
       ->required()
       ->type_name("MACHINE");
   for (const auto& [name, text] : {std::pair("--x", &workspace.x), std::pair("--y", &workspace.y),
@@ -510,30 +498,9 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   std::string topic;
   c_help->add_option("COMMAND", topic, "the command");
 
-  const auto active = [&]() -> CLI::App* {
-    CLI::App* at = &app;
-    while (!at->get_subcommands().empty()) at = at->get_subcommands().front();
-    return at;
-  };
+  const auto active = [&] { return active_command(app); };
   try {
     app.parse(argc, argv);
-  } catch (const CLI::ExtrasError&) {
-    // An option that is not known comes with its value among the rest.
-    const std::vector<std::string> rest = active()->remaining();
-    std::string word = rest.empty() ? "" : rest.front();
-    for (const std::string& text : rest)
-      if (text.starts_with("-") && !word.starts_with("-")) word = text;
-    std::string message = "'" + printable(word) + "' is not understood here.";
-    if (word.starts_with("-")) {
-      message = "there is no option '" + printable(word) + "'." +
-                did_you_mean(word.substr(0, word.find('=')), option_names(active()));
-    } else if (active() == &app || active() == c_machine || active() == c_kin ||
-               active() == c_log) {
-      std::vector<std::string> names;
-      for (const CLI::App* sub : active()->get_subcommands({})) names.push_back(sub->get_name());
-      message = "there is no command '" + printable(word) + "'." + did_you_mean(word, names);
-    }
-    return usage_error(make_error("usage", message), active() == &app ? "" : active()->get_name());
   } catch (const CLI::CallForHelp&) {
     std::fputs(active()->help().c_str(), stdout);
     return 0;
@@ -544,17 +511,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     std::printf("%s\n", e.what());
     return 0;
   } catch (const CLI::ParseError& e) {
-    CLI::App* at =
-        active() == c_machine || active() == c_kin || active() == c_log ? active() : &app;
-    const std::string word = at == &app ? (argc > 1 ? argv[1] : "") : (argc > 2 ? argv[2] : "");
-    if (active() == at && !word.empty() && !word.starts_with("-")) {
-      std::vector<std::string> names;
-      for (const CLI::App* sub : at->get_subcommands({})) names.push_back(sub->get_name());
-      return usage_error(make_error("usage", "there is no command '" + printable(word) + "'." +
-                                                 did_you_mean(word, names)),
-                         at == &app ? "" : at->get_name());
-    }
-    return usage_error(make_error("usage", e.what()), active() == &app ? "" : active()->get_name());
+    return usage_error(usage_diagnostic(app, e), active());
   }
 
   if (c_help->parsed()) {
@@ -571,19 +528,19 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       }
     return usage_error(make_error("usage", "there is no command '" + printable(topic) + "'." +
                                                did_you_mean(topic, names)),
-                       "");
+                       &app);
   }
   const auto sets = assignments(set);
-  if (!sets) return usage_error(sets.error(), active()->get_name());
+  if (!sets) return usage_error(sets.error(), active());
   const auto pixels = picture_size(size);
-  if (!pixels) return usage_error(pixels.error(), active()->get_name());
+  if (!pixels) return usage_error(pixels.error(), active());
 
   for (const double value : {run.near, run.period, run.max_time.value_or(0)})
     if (!std::isfinite(value) || value < 0)
       return usage_error(
           make_error("usage",
                      "--near, --period and --max-sim-time take plain numbers of 0 or more"),
-          active()->get_name());
+          active());
   if (c_run->parsed()) {
     run.program.set = *sets;
     run.output.fail_on = severity_of(fail_on);
@@ -609,14 +566,14 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   if (c_kin->parsed()) {
     if (kin.action != KinArguments::Action::rot && kin.machine.empty() && kin.type.empty())
       return usage_error(make_error("usage", "name a machine with -m, or a kinematics with --type"),
-                         active()->get_name());
+                         active());
     return Arguments(kin);
   }
   if (c_workspace->parsed()) return Arguments(workspace);
   if (c_accuracy->parsed()) {
     if ((!accuracy.plot.empty() || !accuracy.of.empty()) && accuracy.sweep.empty())
       return usage_error(make_error("usage", "--plot and --of draw a --sweep; name what changes"),
-                         active()->get_name());
+                         active());
     return Arguments(accuracy);
   }
   if (c_log->parsed()) return Arguments(log);
@@ -624,7 +581,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   if (c_explain->parsed()) {
     if (explain.kind.empty() && !explain.list)
       return usage_error(make_error("usage", "explain needs a kind, or --list for all of them"),
-                         "explain");
+                         c_explain);
     return Arguments(explain);
   }
   (void)c_doctor;

@@ -210,8 +210,18 @@ TEST_F(Cli, RefusesInputsThatCantBeRead) {
            {"run programs/bracket.ngc -m mill3 --set 5=3", "#100=5"},
            {"run programs/bracket.ngc -m mill3 --size 3", "1280x800"},
            {"rnu programs/bracket.ngc", "Did you mean 'run'?"},
-           {"run programs/bracket.ngc", "--machine is required"},
-           {"", "subcommand is required"},
+           {"run programs/bracket.ngc", "--machine MACHINE is missing: shipped name"},
+           {"run programs/bracket.ngc -m mill3 -m mill3", "is given 2 times"},
+           {"run programs/bracket.ngc -m", "the value is missing"},
+           {"run programs/bracket.ngc -m mill3 --near -3", "'-3': write a number from 0 to 1000"},
+           {"run programs/bracket.ngc -m mill3 --max-blocks x", "'x': write a number"},
+           {"run programs/bracket.ngc -m mill3 --format jsn", "Did you mean 'json'?"},
+           {"run programs/bracket.ngc -m mill3 --force=maybe", "this option takes no value"},
+           {"run programs/bracket.ngc more -m mill3", "'more' is one argument too many"},
+           {"workspace -m mill3 --tool -1", "write a number of 0 or more"},
+           {"kin fk", "see aircut kin fk --help"},
+           {"machine foo", "There are check, info"},
+           {"", "name a command: run, check"},
        }) {
     const Outcome r = aircut(c.arguments);
     EXPECT_EQ(r.code, 2) << c.arguments << "\n" << r.out << r.err;
