@@ -255,6 +255,27 @@ TEST_F(Cli, IsUnknownWhenALoopDoesNotEnd) {
   }
 }
 
+// `timeout` sends its signal to the program and to the program's group: it comes twice.
+TEST_F(Cli, FinishesItsFilesWhenItIsAskedTwiceToStop) {
+  put("endless.ngc", "G21\no1 while [1]\nG1 X1 F100\nG1 X0\no1 endwhile\nM2\n");
+  for (const auto& [signal, expected] : {std::pair("TERM", 143), std::pair("INT", 130)}) {
+    const std::string folder = path(signal);
+    const std::string command =
+        "cd " AIRCUT_SOURCE_DIR " && bash -c '" AIRCUT_BINARY_DIR "/bin/aircut run " +
+        path("endless.ngc") + " -m mill3 --frames none -o " + folder + " >" + path("stdout") +
+        " 2>&1 & while [ ! -e " + folder + " ]; do sleep 0.05; done; sleep 0.3; kill -" + signal +
+        " $!; sleep 0.01; kill -" + signal + " $!; wait $!'";
+    const int status = std::system(command.c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), expected) << text_of(path("stdout"));
+    EXPECT_TRUE(text_of(path("stdout")).find("was interrupted") != std::string::npos)
+        << text_of(path("stdout"));
+    EXPECT_TRUE(fs::exists(folder + "/result.json"));
+    for (const auto& file : fs::directory_iterator(folder))
+      EXPECT_EQ(file.path().string().find("partial"), std::string::npos) << file.path();
+  }
+}
+
 TEST_F(Cli, RefusesToWriteWhereItMustNot) {
   fs::create_directory(path("full"));
   put("full/mine.txt", "keep me");
