@@ -59,11 +59,18 @@ class Query {
     }
   }
 
-  Touch touch(const Piece& piece) {
+  /// `enough` is asked after every stretch and may end it: then what is told is a part of it.
+  Touch touch(const Piece& piece, const std::function<bool(const Touch&)>& enough = {}) {
     std::array<std::int64_t, 3> sums{};
     std::unordered_map<std::uint64_t, std::vector<std::pair<std::int64_t, std::int64_t>>> open;
     Touch out;
     std::int64_t deepest = 0;
+    const auto measured = [&]() -> const Touch& {
+      out.depth = static_cast<double>(deepest) * lattice_.quantum();
+      out.volume = static_cast<double>(std::max({sums[0], sums[1], sums[2]})) * lattice_.quantum() *
+                   lattice_.pitch * lattice_.pitch;
+      return out;
+    };
     const auto offer = [&](Family f, const Index3& node, std::int64_t from, std::int64_t to) {
       if (to - from <= deepest) return;
       deepest = to - from;
@@ -75,7 +82,7 @@ class Query {
       out.across = std::max(out.across, across(s));
       if (s.from % brick_quanta == 0 || s.to % brick_quanta == 0)
         open[ray_key(s)].emplace_back(s.from, s.to);
-      return true;
+      return !enough || !enough(measured());
     });
     for (auto& [key, parts] : open) {  // stretches go on over the bricks' borders
       std::sort(parts.begin(), parts.end());
@@ -86,10 +93,7 @@ class Query {
         offer(family_of(key), node_of(key), from, to);
       }
     }
-    out.depth = static_cast<double>(deepest) * lattice_.quantum();
-    out.volume = static_cast<double>(std::max({sums[0], sums[1], sums[2]})) * lattice_.quantum() *
-                 lattice_.pitch * lattice_.pitch;
-    return out;
+    return measured();
   }
 
   /// Both ends of each stretch are seen from the tip when it passes them: along its way as far as
@@ -460,6 +464,12 @@ Expected<Touch> Stock::touch(const Piece& piece) const {
   return Query(*impl_).touch(piece);
 }
 
+Expected<bool> Stock::takes(const Piece& piece, double depth, double volume) const {
+  if (auto ok = supported({&piece, 1}); !ok) return unexpected(ok.error());
+  const auto more = [&](const Touch& t) { return t.depth > depth || t.volume > volume; };
+  return more(Query(*impl_).touch(piece, more));
+}
+
 Expected<Touch> Stock::deepest(const Piece& piece,
                                const std::function<double(const Vec3&)>& depth_at, double ignore,
                                double at_surface) const {
@@ -472,13 +482,15 @@ Expected<Engagement> Stock::engagement(const Piece& piece) const {
   return Query(*impl_).engagement(piece);
 }
 
-Expected<ContactAnswer> Stock::would_cut(const Piece& piece, double tolerance) const {
+Expected<ContactAnswer> Stock::would_cut(const Piece& piece, double tolerance,
+                                         HowDeep how_deep) const {
   if (auto ok = supported({&piece, 1}); !ok) return unexpected(ok.error());
   Query query(*impl_);
   ContactAnswer out;
   const double half = pitch() / 2;
   if (!touches(query, piece, half)) return out;  // holds for the body itself as well
-  out.touch = query.touch(piece);
+  const auto is_hit = [&](const Touch& t) { return t.across > tolerance; };
+  out.touch = how_deep == HowDeep::measured ? query.touch(piece) : query.touch(piece, is_hit);
   out.least = out.touch.across;
   if (out.touch.across > tolerance) {
     out.contact = Contact::hit;

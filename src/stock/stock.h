@@ -131,6 +131,10 @@ struct ContactAnswer {
   double most = 0;   ///< with what may hide between the rays
 };
 
+/// Whether an answer about a hit says how deep it is. Without that it comes much sooner, and its
+/// touch is that of the first places that were looked at.
+enum class HowDeep { measured, left_open };
+
 /// Which triangles a mesh has.
 enum class Facets {
   merged,   ///< flat stretches across an axis in as few as can be; the surface is the same
@@ -177,9 +181,13 @@ class Stock {
 
   /// What the piece would take if it cut now. Changes nothing. Error: `stock_unsupported`.
   Expected<Touch> touch(const Piece& piece) const;
+  /// Whether it would be deeper than `depth` mm or take more than `volume` mm³; sooner than
+  /// touch().
+  Expected<bool> takes(const Piece& piece, double depth, double volume) const;
   /// The same as a proof for a body that must not touch, e.g. a shank or a rapid move. Contact up
   /// to `tolerance` mm is no hit. Error: `stock_unsupported`.
-  Expected<ContactAnswer> would_cut(const Piece& piece, double tolerance) const;
+  Expected<ContactAnswer> would_cut(const Piece& piece, double tolerance,
+                                    HowDeep how_deep = HowDeep::measured) const;
 
   /// How the piece would be in the material if it cut now. Error: `stock_unsupported`.
   Expected<Engagement> engagement(const Piece& piece) const;

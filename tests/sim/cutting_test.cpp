@@ -39,7 +39,7 @@ class Cutting : public ::testing::Test {
  protected:
   // A program that begins with T1 in the spindle, its length on, outside of the block at X -50.
   RunResult run(const std::string& text, const Shape& shape = {},
-                const std::string& start = "T1 M6 G43 H1\n") {
+                const std::string& start = "T1 M6 G43 H1\n", const CheckOptions& checks = {}) {
     auto machine = std::make_shared<machine::Machine>(*box_.machine());
     machine::SetupStock stock;
     stock.raw.size = Vec3(60, 40, 20);
@@ -51,7 +51,7 @@ class Cutting : public ::testing::Test {
     const auto placed = machine::apply_setup(*machine, setup, box_.sources(), out);
     EXPECT_TRUE(placed);
     return run_program("G21 G90 G61 G17\n" + start + "S1000 M3 F1000\nG0 X-50 Y0\n" + text + "M2\n",
-                       *placed, end_mill(shape), box_.sources());
+                       *placed, end_mill(shape), box_.sources(), checks);
   }
   BoxMachine box_;
 };
@@ -195,6 +195,36 @@ TEST_F(Cutting, FindsAHolderOnTheFace) {
   EXPECT_EQ(r.verdict, Verdict::pass);
   const RunResult low = run("G0 X-55\nG0 Z-121\nG1 X-36\n");
   EXPECT_EQ(low.only(Kind::collision).body_a, "T1/holder");
+}
+
+// A program with a wrong offset has its holder in the stock all the time.
+TEST_F(Cutting, FindsEveryContactWhenOnlyTheFirstAreMeasured) {
+  const std::string deep = "G0 X-55\nG0 Z-125\nG1 X-36\nG1 X-30\nG3 X-20 Y10 R10\nG1 Y12 Z-124\n";
+  const std::string start = "T1 M6 G43 H1\n";
+  CheckOptions few;
+  few.detailed = 2;
+  const RunResult all = run(deep, {}, start), some = run(deep, {}, start, few);
+  ASSERT_EQ(some.findings.size(), all.findings.size());
+  std::size_t told = 0, measured = 0;
+  for (std::size_t i = 0; i < all.findings.size(); ++i) {
+    const Finding &a = all.findings[i], &b = some.findings[i];
+    SCOPED_TRACE(a.message);
+    EXPECT_EQ(b.message, a.message);
+    EXPECT_EQ(b.block, a.block);
+    EXPECT_EQ(b.t_first, a.t_first);
+    EXPECT_EQ(b.t_end, a.t_end);
+    if (a.kind != Kind::collision) continue;
+    ++told;
+    ASSERT_TRUE(a.depth);
+    EXPECT_FALSE(b.points.empty());
+    if (b.depth) {
+      EXPECT_EQ(*b.depth, *a.depth);
+    }
+    measured += b.depth ? 1 : 0;
+  }
+  EXPECT_GE(told, 4U);
+  EXPECT_GE(measured, 2U);
+  EXPECT_LT(measured, told);
 }
 
 TEST_F(Cutting, CutsArcsToTheirVolume) {

@@ -65,7 +65,8 @@ std::string name_of(const Who& who) {
 
 }  // namespace
 
-void tell_hit(Finding& row, const Who& who, double depth_bound, const std::string& remedy) {
+void tell_hit(Finding& row, const Who& who, std::optional<double> depth_bound,
+              const std::string& remedy) {
   row.message = name_of(who) + (who.role == machine::Role::probe
                                     ? " touches the stock"
                                     : " runs into stock that the cutter leaves standing");
@@ -81,7 +82,7 @@ void tell_doubt(Finding& row, const Who& who, double pitch) {
   row.unresolved = row.makes_unknown = true;
 }
 
-void CutRows::tell(Finding f, double depth, double volume) {
+void CutRows::tell(Finding f, std::optional<double> depth, double volume) {
   auto at = std::find_if(rows_.begin(), rows_.end(), [&](const Finding& other) {
     return other.kind == f.kind && other.body_a == f.body_a;
   });
@@ -90,10 +91,10 @@ void CutRows::tell(Finding f, double depth, double volume) {
   } else {
     at->t_end = f.t_end;
     at->u_end = f.u_end;
-    if (depth > at->depth.value_or(0)) at->points = f.points;
+    if (depth.value_or(0) > at->depth.value_or(0)) at->points = f.points;
   }
   if (at->value) *at->value += volume;
-  if (!at->unresolved) at->depth = std::max(at->depth.value_or(0), depth);
+  if (depth && !at->unresolved) at->depth = std::max(at->depth.value_or(0), *depth);
 }
 
 void CutRows::hand_over(Findings& out) {

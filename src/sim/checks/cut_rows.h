@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,10 @@
 namespace aircut::sim {
 
 /// More than a touch: deeper than ε_cut or more than V_cut (verification.md §4.3); mm, mm³.
-inline bool takes_material(double depth, double volume) { return depth > 0.01 || volume > 0.01; }
+inline constexpr double touch_depth = 0.01, touch_volume = 0.01;
+inline bool takes_material(double depth, double volume) {
+  return depth > touch_depth || volume > touch_volume;
+}
 
 /// Whether the step is a rapid or a tool change. Where a rapid and a feed move are rounded into one
 /// another, neither is at its full speed.
@@ -35,8 +39,9 @@ struct Who {
 Finding cut_row(Kind kind, const Step& step, const StraightMove& move, const Who& who,
                 const machine::RawStock& raw, const Vec3& point,
                 const std::function<bool(double)>& enough);
-/// What a row says of a shank or holder that runs into stock.
-void tell_hit(Finding& row, const Who& who, double depth_bound, const std::string& remedy);
+/// What a row says of a shank or holder that runs into stock; without a bound no depth is told.
+void tell_hit(Finding& row, const Who& who, std::optional<double> depth_bound,
+              const std::string& remedy);
 /// What it says when neither contact nor clearance could be proven.
 void tell_doubt(Finding& row, const Who& who, double pitch);
 
@@ -44,8 +49,8 @@ void tell_doubt(Finding& row, const Who& who, double pitch);
 class CutRows {
  public:
   void clear() { rows_.clear(); }
-  /// Adds a row, or lengthens the one of the same kind and body.
-  void tell(Finding row, double depth, double volume);
+  /// Adds a row, or lengthens the one of the same kind and body. No depth: it is not measured.
+  void tell(Finding row, std::optional<double> depth, double volume);
   /// With the volumes in their messages.
   void hand_over(Findings& out);
 

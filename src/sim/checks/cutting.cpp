@@ -183,8 +183,16 @@ bool CuttingCheck::near(const Solid& solid, const StraightMove& move) const {
   return swept.intersects(stock_->box());
 }
 
-bool CuttingCheck::takes(const stock::Touch& touch) const {
-  return takes_material(touch.depth, touch.volume);
+bool CuttingCheck::touches(const stock::Piece& piece) {
+  const auto answer = stock_->takes(piece, 0, 0);
+  if (!answer) give_up(answer.error().message);
+  return answer && *answer;
+}
+
+bool CuttingCheck::takes(const stock::Piece& piece) {
+  const auto answer = stock_->takes(piece, touch_depth, touch_volume);
+  if (!answer) give_up(answer.error().message);
+  return answer && *answer;
 }
 
 stock::Touch CuttingCheck::touch_of(const stock::Piece& piece) {
@@ -328,7 +336,7 @@ bool CuttingCheck::find_moves(const Step& step) {
   for (const Solid& solid : others_) {
     const Solid wide{solid.name, solid.role, solid.wide, solid.wide};
     const bool clear = std::all_of(moves_.begin(), moves_.end(), [&](const StraightMove& move) {
-      return !near(wide, move) || touch_of(piece(wide, move)).depth == 0;
+      return !near(wide, move) || !touches(piece(wide, move));
     });
     if (!clear) doubtful_.push_back(&solid);
   }
@@ -373,7 +381,7 @@ void CuttingCheck::look_for_air(const Step& step, const std::vector<StraightMove
   for (const StraightMove& move : moves)
     for (const Solid& cutter : cutters_) {
       if (!stock()) return;
-      if (near(cutter, move) && touch_of(piece(cutter, move)).depth > 0) return;
+      if (near(cutter, move) && touches(piece(cutter, move))) return;
     }
   add_air_cut(step, out);
 }
@@ -382,12 +390,12 @@ void CuttingCheck::cutter_may_not(const Step& step, const StraightMove& move, co
                                   Kind kind) {
   if (!near(cutter, move)) return;
   const stock::Piece whole = piece(cutter, move);
-  if (!takes(touch_of(whole))) return;
+  if (!takes(whole)) return;
   flush();
   if (!stock()) return;
   const stock::Touch touch = touch_of(whole);
-  if (!stock() || !takes(touch)) return;
-  const auto enough = [&](const stock::Piece& part) { return takes(touch_of(part)); };
+  if (!stock() || !takes_material(touch.depth, touch.volume)) return;
+  const auto enough = [&](const stock::Piece& part) { return takes(part); };
   Finding f = row(kind, step, move, cutter, touch.point, enough);
   f.message = what_happens(kind, "cutter `" + cutter.name + "`");
   f.remedy = remedy_of(kind, left_hand_);
@@ -414,27 +422,46 @@ bool CuttingCheck::comes_off(const StraightMove& move, const Solid& solid) {
   return across(move.from, move.to) <= before + stock_->pitch() / 10;
 }
 
+// Depths take the most time where a holder is deep in the stock, and a program with a wrong offset
+// has it there all the time. All moves of a block are alike in this, since they make one row.
+bool CuttingCheck::is_measured(const Step& step) {
+  const std::uint64_t block = step.segment.command.block;
+  if (measured_ > 0 && block == measured_block_) return true;
+  if (measured_ >= options_.detailed) return false;
+  ++measured_;
+  measured_block_ = block;
+  return true;
+}
+
 void CuttingCheck::ask(const Step& step, const StraightMove& move, const Solid& solid) {
   if (!stock() || !near(solid, move)) return;
   if (comes_off(move, solid)) return;
   const stock::Piece whole = piece(solid, move);
-  auto answer = stock_->would_cut(whole, options_.touch);
+  const auto ask_now = [&](stock::HowDeep how_deep) {
+    return stock_->would_cut(whole, options_.touch, how_deep);
+  };
+  auto answer = ask_now(stock::HowDeep::left_open);
   if (answer && answer->contact == stock::Contact::clear) return;
-  flush();
-  if (!stock()) return;
-  answer = stock_->would_cut(whole, options_.touch);
+  if (!batch_.empty()) {
+    flush();
+    if (!stock()) return;
+    answer = ask_now(stock::HowDeep::left_open);
+  }
   if (!answer) return give_up(answer.error().message);
   if (answer->contact == stock::Contact::clear) return;
-  const bool hit = answer->contact == stock::Contact::hit;
-  const auto enough = [&](const stock::Piece& part) { return takes(touch_of(part)); };
+  const bool hit = answer->contact == stock::Contact::hit, measured = hit && is_measured(step);
+  if (measured) answer = ask_now(stock::HowDeep::measured);
+  const auto enough = [&](const stock::Piece& part) { return takes(part); };
   const Kind contact = solid.role == machine::Role::probe ? Kind::probe_contact : Kind::collision;
   Finding f = row(hit ? contact : Kind::near_miss, step, move, solid, answer->touch.point, enough);
   if (hit)
-    tell_hit(f, {solid.name, solid.role}, answer->most - answer->least,
+    tell_hit(f, {solid.name, solid.role},
+             measured ? std::optional(answer->most - answer->least) : std::nullopt,
              "use a longer stick-out or flute length, or clear the material beside it first");
   else
     tell_doubt(f, {solid.name, solid.role}, stock_->pitch());
-  rows_.tell(std::move(f), answer->touch.depth, answer->touch.volume);
+  rows_.tell(std::move(f), measured ? std::optional(answer->touch.depth) : std::nullopt,
+             answer->touch.volume);
 }
 
 Finding CuttingCheck::row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,

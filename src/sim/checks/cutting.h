@@ -67,7 +67,9 @@ class CuttingCheck final : public Check {
   stock::Piece piece(const Solid& solid, const StraightMove& move, double part = 1) const;
   /// False when the solid passes outside of the box of the raw piece.
   bool near(const Solid& solid, const StraightMove& move) const;
-  bool takes(const stock::Touch& touch) const;
+  /// Any material, or more than a touch. False when the stock is lost.
+  bool touches(const stock::Piece& piece);
+  bool takes(const stock::Piece& piece);
   stock::Touch touch_of(const stock::Piece& piece);
   void hold(const Step& step, const Solid& cutter, const StraightMove& move);
   void flush();
@@ -85,6 +87,7 @@ class CuttingCheck final : public Check {
   void compare_with_part(Summary& summary, Findings& out);
   void look_for_loose(const Scene& scene, Findings& out);
   bool comes_off(const StraightMove& move, const Solid& solid);
+  bool is_measured(const Step& step);
   void give_up(const std::string& why);
   void tell_given_up(const Step& step, Findings& out);
 
@@ -97,8 +100,10 @@ class CuttingCheck final : public Check {
   LoosePieces loose_;
   machine::JointVector joints_;  ///< at the end of the last step
   std::shared_ptr<const machine::Machine> machine_;
-  const Scene* scene_ = nullptr;               ///< of the run
-  double t_end_ = 0;                           ///< of the last step, s
+  const Scene* scene_ = nullptr;      ///< of the run
+  std::size_t measured_ = 0;          ///< blocks with a contact whose depth is measured …
+  std::uint64_t measured_block_ = 0;  ///< … and the last of them
+  double t_end_ = 0;                  ///< of the last step, s
   double initial_volume_ = 0, tolerance_ = 0;  ///< mm³, mm
   std::int64_t removed_ = 0;                   ///< length of material taken on Z rays, quanta
   std::vector<Solid> cutters_, others_;
