@@ -301,13 +301,16 @@ std::optional<GridFailure> GridMaker::make(bool identity, const JointVector& nea
     grid_.uniform_joint =
         first.tip_alpha > of_joints ? static_cast<signed char>(-1) : largest_of(first.alpha);
   }
-  ramp_ = std::min(std::max(first.cap, last.cap) * alpha / 2, length_);
+  const double whole_ramp = std::max(first.cap, last.cap) * alpha / 2;
+  ramp_ = std::min(whole_ramp, length_);
   // On a bend the tip's limit leaves less the faster it is: the ramp is no straight line.
   if (const double bend = std::max(first.tip_bend, last.tip_bend); grid_.tip_rows > 0 && bend > 0)
     ramp_ = std::min(ramp_, alpha / (8 * bend));
   if (std::holds_alternative<Blend>(path_.path())) {
     const double fastest = std::sqrt(std::max(first.cap, last.cap));
     row_tolerance_ = length_ < moment * fastest ? moment_row_tolerance : blend_row_tolerance;
+    // No ride both starts and ends at rest in so short a blend: it only passes on a ramp.
+    if (length_ < moment * fastest) ramp_ = whole_ramp;
   }
   grid_.dq_start = first.joint.dq;
   // Most pieces need no more nodes than that.

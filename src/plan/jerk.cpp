@@ -318,6 +318,9 @@ void JerkStage::append(const NodePlan& plan, const WindowLaw& law, bool to_stop)
       start.known.jerk.push_back(plan.trim.jerk[k]);
       start.known.speed.push_back(plan.trim.speed[k]);
     }
+    const auto from = static_cast<std::ptrdiff_t>(last);
+    start.rest_x.assign(plan.x.begin() + from, plan.x.end());
+    start.rest_b.assign(plan.b.begin() + from, plan.b.end());
     for (std::size_t j = 0; j < window_.joints; ++j) start.q.push_back(plan.q[j * n + last - 1]);
   }
 }

@@ -32,6 +32,53 @@ Trim first_trim(const WindowStart& start, const std::vector<double>& x) {
   return out;
 }
 
+// b of a plan at x. Next to a stop b goes with x^(4/3).
+double speed_of(const NodePlan& plan, double x, std::size_t& cell) {
+  const std::size_t last = plan.x.size() - 2;
+  while (cell < last && plan.x[cell + 1] <= x) ++cell;
+  const double x0 = plan.x[cell], x1 = plan.x[cell + 1], b0 = plan.b[cell], b1 = plan.b[cell + 1];
+  const double f = std::clamp((x - x0) / (x1 - x0), 0.0, 1.0);
+  if (b0 == 0) return b1 * std::pow(f, 4.0 / 3);
+  if (b1 == 0) return b0 * std::pow(1 - f, 4.0 / 3);
+  return b0 + f * (b1 - b0);
+}
+
+// Where the solver starts: a plan that is nearly it, a little slower; without one, a slow ride that
+// leaves stops as the jerk allows. Behind a start on the move that is first the way to rest of the
+// window before, which is legal.
+std::vector<double> first_guess(const JerkWindow& w, const JerkProblem& problem,
+                                const NodePlan* before, double start_jerk, double end_jerk) {
+  const std::vector<double>& x = problem.x;
+  const std::size_t n = x.size() - 1;
+  const auto from_stop = [](double way, double jerk) {
+    if (!std::isfinite(jerk)) return infinity;
+    const double v = jerk / 2 * std::pow(6 * way / jerk, 2.0 / 3);
+    return v * v;
+  };
+  const WindowStart& start = w.start;
+  constexpr double slower = 0.1, cells_to_slow = 30;
+  std::vector<double> out(n + 1);
+  std::size_t cell = 0;
+  for (std::size_t k = 0; k <= n; ++k) {
+    double b = slower * problem.cap[k];
+    if (before) {
+      const double part =
+          start.from_rest ? 1 : std::min(static_cast<double>(k) / cells_to_slow, 1.0);
+      b = (1 - slower * part * part) * speed_of(*before, x[k], cell);
+    } else {
+      if (start.from_rest) b = std::min(b, 0.2 * from_stop(x[k] - x[0], start_jerk));
+      b = std::min(b, 0.2 * from_stop(x[n] - x[k], end_jerk));
+      if (!start.from_rest && x[k] < start.rest_x.back()) {
+        while (cell + 2 < start.rest_x.size() && start.rest_x[cell + 1] <= x[k]) ++cell;
+        b = std::max(b, linear(x[k], start.rest_x[cell], start.rest_x[cell + 1], start.rest_b[cell],
+                               start.rest_b[cell + 1]));
+      }
+    }
+    out[k] = std::max(b, 1e-9 * problem.cap[k]);
+  }
+  return out;
+}
+
 }  // namespace
 
 double path_jerk(const double* alpha, const machine::JointVector& rate) {
@@ -71,7 +118,6 @@ NodePlan solve_on(const JerkWindow& w, std::vector<double> x, const NodePlan* be
   problem.q_before = w.start.q;
   problem.time_before = w.start.time;
   problem.cap.resize(n + 1);
-  problem.guess.resize(n + 1);
   std::vector<double> alpha((n + 1) * w.joints);
   // Rates at the nodes by cubic Hermite interpolation; caps as the least of the profile within half
   // a cell.
@@ -100,24 +146,8 @@ NodePlan solve_on(const JerkWindow& w, std::vector<double> x, const NodePlan* be
       problem.p[j * n + k] = bend - mean;
       problem.r[j * n + k] = bend + mean;
     }
-  // Where to start: the coarse plan, or a slow ride that leaves stops as the jerk allows.
-  std::size_t e = 0;
-  const double j0 = path_jerk(alpha.data(), w.rate), j1 = path_jerk(&alpha[n * w.joints], w.rate);
-  const auto from_stop = [](double way, double jerk) {
-    if (!std::isfinite(jerk)) return infinity;
-    const double v = jerk / 2 * std::pow(6 * way / jerk, 2.0 / 3);
-    return v * v;
-  };
-  for (std::size_t k = 0; k <= n; ++k) {
-    double b = 0.1 * problem.cap[k];
-    if (before) {
-      while (e + 2 < before->x.size() && before->x[e + 1] <= x[k]) ++e;
-      b = 0.9 * linear(x[k], before->x[e], before->x[e + 1], before->b[e], before->b[e + 1]);
-    }
-    if (w.start.from_rest) b = std::min(b, 0.2 * from_stop(x[k] - x[0], j0));
-    b = std::min(b, 0.2 * from_stop(x[n] - x[k], j1));
-    problem.guess[k] = std::max(b, 1e-9 * problem.cap[k]);
-  }
+  problem.guess = first_guess(w, problem, before, path_jerk(alpha.data(), w.rate),
+                              path_jerk(&alpha[n * w.joints], w.rate));
   JerkSolution solution = solve(problem, acceleration_room);
   NodePlan plan;
   plan.good = solution.violation < largest_violation;

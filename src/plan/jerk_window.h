@@ -22,6 +22,7 @@ struct WindowStart {
   std::vector<double> q;        ///< of the cell before: joint accelerations, shares of the limits
   std::vector<double> known_x;  ///< the last plan's first nodes from the start on
   Trim known;                   ///< and what it could use there
+  std::vector<double> rest_x, rest_b;  ///< all of its nodes from the start on, with its b
 };
 
 /// A place of the way where the second-order profile and the joints' rates are known.
