@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "report/accuracy_along.h"
 #include "report/messages.h"
@@ -160,6 +161,64 @@ std::string operations_text(const RunReport& report) {
   return out;
 }
 
+// Messages of the same kind about the same bodies say the same again.
+std::string alike_key(const Message& message) {
+  std::string out = message.text.kind;
+  if (const sim::Finding* f = message.finding)
+    for (const std::string* part : {&f->body_a, &f->body_b, &f->joint})
+      if (!part->empty()) out += (part == &f->body_b ? " and " : " of ") + *part;
+  return out;
+}
+
+// At most `most`, and of those that are alike a tenth of that, so that many of one kind don't hide
+// the others.
+std::vector<const Message*> shortened(const std::vector<Message>& all, std::size_t most) {
+  const std::size_t alike = std::max<std::size_t>(most / 10, 10);
+  std::map<std::string, std::size_t> counts;
+  std::vector<const Message*> out;
+  for (const Message& message : all) {
+    if (out.size() == most) break;
+    if (all.size() <= alike || counts[alike_key(message)]++ < alike) out.push_back(&message);
+  }
+  return out;
+}
+
+// What `shown` leaves out, by what is alike; kinds in order of first appearance.
+std::string left_out_text(const std::vector<Message>& all,
+                          const std::vector<const Message*>& shown) {
+  if (shown.size() == all.size()) return {};
+  struct Alike {
+    std::string key;
+    std::size_t count = 0;
+    SourceSpan first, last;
+  };
+  std::vector<Alike> left;
+  std::map<std::string, std::size_t> place;
+  auto next = shown.begin();
+  for (const Message& message : all) {
+    if (next != shown.end() && *next == &message) {
+      ++next;
+      continue;
+    }
+    const auto [at, fresh] = place.try_emplace(alike_key(message), left.size());
+    if (fresh) left.push_back({at->first, 0, message.text.span, {}});
+    ++left[at->second].count;
+    left[at->second].last = message.text.span;
+  }
+  constexpr std::size_t most = 12;
+  std::string out = "… and " + plural(all.size() - shown.size(), "more message") +
+                    "; --format json has them all\n";
+  for (std::size_t i = 0; i < std::min(most, left.size()); ++i) {
+    const Alike& a = left[i];
+    out += "  - " + std::to_string(a.count) + " " + printable(a.key);
+    if (a.first && a.last) out += ", " + a.first.place() + " … " + std::to_string(a.last.line);
+    out += "\n";
+  }
+  if (left.size() > most)
+    out += "  - … of " + std::to_string(left.size() - most) + " other kinds\n";
+  return out + "\n";
+}
+
 std::string summary_text(const RunReport& report, const std::vector<Message>& all,
                          const HumanOptions& options) {
   const sim::Summary& s = report.summary;
@@ -263,15 +322,14 @@ std::string to_human(const RunReport& report, const HumanOptions& options) {
     if (open.size() > options.most)
       out += "  - … and " + std::to_string(open.size() - options.most) + " more\n";
     if (!open.empty()) out += "\n";
-    for (std::size_t i = 0; i < std::min(all.size(), options.most); ++i) {
-      Diagnostic d = all[i].text;
-      if (!d.span && !report.units.empty() && !all[i].program.empty())
-        d.notes.insert(d.notes.begin(), {"program", all[i].program});
+    const std::vector<const Message*> shown = shortened(all, options.most);
+    for (const Message* message : shown) {
+      Diagnostic d = message->text;
+      if (!d.span && !report.units.empty() && !message->program.empty())
+        d.notes.insert(d.notes.begin(), {"program", message->program});
       out += format_human(d, options.style) + "\n";
     }
-    if (all.size() > options.most)
-      out += "… and " + plural(all.size() - options.most, "more message") +
-             "; --format json has them all\n\n";
+    out += left_out_text(all, shown);
     out += accepted_text(report, options.most);
   }
   return harmless(out + summary_text(report, all, options));

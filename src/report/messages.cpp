@@ -27,14 +27,14 @@ std::vector<std::string> owners(const RunReport& report) {
 
 struct Episode {
   std::size_t message = 0;  ///< where its message is in the list
-  std::size_t rows = 0;
+  std::size_t rows = 0, blocks = 0;
   const sim::Finding* last = nullptr;
 };
 
 // The rest of an episode in words: it is one message, but lasts over several blocks.
 void tell_rest(Diagnostic& d, const Episode& episode) {
-  if (episode.rows < 2) return;
-  const std::size_t more = episode.rows - 1;
+  if (episode.blocks < 2) return;
+  const std::size_t more = episode.blocks - 1;
   std::string text = "goes on in " + std::to_string(more) + " more block" + (more == 1 ? "" : "s");
   if (episode.last->span) text += ", up to line " + std::to_string(episode.last->span.line);
   d.notes.insert(d.notes.begin(),
@@ -55,6 +55,7 @@ std::vector<Message> messages(const RunReport& report, Take take) {
   for (const sim::Finding& f : report.findings) {
     Episode& episode = episodes[f.episode];
     ++episode.rows;
+    if (episode.last == nullptr || episode.last->block != f.block) ++episode.blocks;
     episode.last = &f;
     const bool open = f.makes_unknown || f.unresolved;
     if (take == Take::rows || episode.rows == 1) {

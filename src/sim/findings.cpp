@@ -124,6 +124,18 @@ bool continues(const Finding& last, const Finding& next) {
   return next.unresolved == last.unresolved && next.t_first <= last.t_end + same_time;
 }
 
+// Cutter in material where it may not be: told of parts of a block that take more than a touch.
+bool is_cut(Kind kind) {
+  return kind == Kind::rapid_cut || kind == Kind::spindle_stopped_cut ||
+         kind == Kind::spindle_direction_cut || kind == Kind::no_tool_cut ||
+         kind == Kind::plunge_not_center_cutting || kind == Kind::gouge_live;
+}
+
+// The same over blocks: one episode.
+bool goes_on(const Finding& last, const Finding& next) {
+  return continues(last, next) || (is_cut(next.kind) && next.block <= last.block + 1);
+}
+
 // How bad a row is: depth of a contact, excess of a joint.
 double badness(const Finding& f) {
   if (f.value && f.limit && f.kind != Kind::near_miss) return std::abs(*f.value - *f.limit);
@@ -183,7 +195,7 @@ std::vector<Finding> Findings::finish() {
     f.id = static_cast<int>(i) + 1;
     const auto [place, fresh] = open.try_emplace(key_of(f));
     Open& episode = place->second;
-    if (fresh || !continues(episode.last, f)) episode.episode = ++episodes;
+    if (fresh || !goes_on(episode.last, f)) episode.episode = ++episodes;
     f.episode = episode.episode;
     episode.last = f;
   }

@@ -59,6 +59,7 @@ TEST_F(Human, GivesOneMessagePerEpisodeAndCountsMessages) {
   sim::Finding first = samples_.collision(), next = first, other = samples_.collision();
   next.id = 2;
   next.span = samples_.line(5);
+  next.block = first.block + 1;
   next.t_end = 90;
   other.body_b = "clamp";
   r.findings = {first, next, other};
@@ -81,6 +82,25 @@ TEST_F(Human, PrintsNoMoreMessagesThanAskedForAndSaysHowManyThereAre) {
   EXPECT_EQ(count(out, "- thing"), 3u);
   EXPECT_NE(out.find("and 2 more\n"), std::string::npos) << out;
   EXPECT_NE(out.find("(7 errors, 0 warnings)"), std::string::npos) << out;
+}
+
+TEST_F(Human, DoesNotLetManyOfAKindHideAnother) {
+  RunReport r = samples_.clean();
+  for (int i = 0; i < 150; ++i) {
+    r.findings.push_back(samples_.collision());
+    r.findings.back().episode = i;
+    r.findings.back().span = samples_.line(i < 149 ? 4 : 5);
+  }
+  sim::Finding other = samples_.collision();
+  other.episode = 150;
+  other.body_b = "clamp";
+  r.findings.push_back(other);
+  const std::string out = text(r);
+  EXPECT_EQ(count(out, "error[collision]"), 11u) << out;
+  EXPECT_NE(out.find("and 140 more messages"), std::string::npos) << out;
+  EXPECT_NE(out.find("  - 140 collision of "), std::string::npos) << out;
+  EXPECT_NE(out.find(":4:1 … 5\n"), std::string::npos) << out;
+  EXPECT_NE(out.find("(151 errors, 0 warnings)"), std::string::npos) << out;
 }
 
 TEST_F(Human, IsOneLineWhenQuiet) {
