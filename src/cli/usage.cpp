@@ -110,24 +110,23 @@ std::string wrong_value(const CLI::Option& option, const std::string& message) {
 }
 
 std::string text_of_rest(const CLI::App& command) {
-  // An option that is not known comes with its value among the rest.
-  const std::vector<std::string> rest = command.remaining();
-  std::string word = rest.empty() ? "" : rest.front();
-  for (const std::string& text : rest)
-    if (text.starts_with("-") && !word.starts_with("-")) word = text;
-  if (word.starts_with("-"))
-    return "there is no option '" + printable(word) + "'." +
-           did_you_mean(word.substr(0, word.find('=')), option_names(command));
-  const std::vector<std::string> commands = command_names(command);
-  if (!commands.empty())
-    return "there is no command '" + printable(word) + "'." + did_you_mean(word, commands) +
+  const std::vector<std::string> rest = command.remaining(), commands = command_names(command);
+  const std::string& first = rest.front();
+  if (!commands.empty() && !first.starts_with("-"))
+    return "there is no command '" + printable(first) + "'." + did_you_mean(first, commands) +
            " There are " + joined(commands) + ".";
-  return "'" + printable(word) + "' is one argument too many";
+  // An option that is not known comes with its value among the rest.
+  for (const std::string& word : rest)
+    if (word.starts_with("-"))
+      return "there is no option '" + printable(word) + "'." +
+             did_you_mean(word.substr(0, word.find('=')), option_names(command));
+  return "'" + printable(first) + "' is one argument too many";
 }
 
 std::string text_of(const CLI::App& command, const CLI::ParseError& error) {
   const std::string message = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) return text_of_rest(command);
+  const bool extras = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  if (extras && !command.remaining().empty()) return text_of_rest(command);
   const CLI::Option* option = option_of(command, message);
   const std::vector<std::string> commands = command_names(command);
   if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
