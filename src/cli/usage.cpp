@@ -98,7 +98,9 @@ std::string wrong_value(const CLI::Option& option, const std::string& message) {
     if (!given.empty() && message.find(given) != std::string::npos) value = given;
   const std::string name = option.get_name() + " '" + printable(value) + "': ";
   const std::vector<std::string> words = split(option.get_type_name(), '|');
-  if (words.size() > 1)
+  const bool of_a_list = message.find(" not in {") != std::string::npos ||
+                         message.find(" value in {") != std::string::npos;
+  if (of_a_list && words.size() > 1)
     return name + "write one of " + joined(words) + "." + did_you_mean(value, words);
   if (const std::string range = range_in(message); !range.empty()) return name + range;
   if (message.starts_with("Could not convert"))
