@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include "report/accuracy_along.h"
 #include "report/messages.h"
@@ -144,20 +145,33 @@ std::string accepted_text(const RunReport& report, std::size_t most) {
   return out.empty() ? out : "accepted:\n" + out + "\n";
 }
 
-// The time by operation, where there are several.
+// The time by operation, where there are several; what a loop does again is one line.
 std::string operations_text(const RunReport& report) {
   constexpr std::size_t most = 12;
   if (report.operations.size() < 2) return {};
-  std::string out = "  time     by operation:\n";
-  for (std::size_t i = 0; i < std::min(most, report.operations.size()); ++i) {
-    const Operation& o = report.operations[i];
-    out += "             " + clock(o.time) + "  " +
-           (o.tool > 0 ? "T" + std::to_string(o.tool) + "  " : std::string()) + "line " +
-           std::to_string(o.line) + (o.name.empty() ? "" : "  " + printable(o.name)) + "\n";
+  struct Row {
+    const Operation* first = nullptr;
+    double time = 0;
+    std::size_t times = 0;
+  };
+  std::vector<Row> rows;
+  std::map<std::tuple<int, std::uint64_t, std::string>, std::size_t> place;
+  for (const Operation& o : report.operations) {
+    const auto [at, fresh] = place.try_emplace({o.tool, o.line, o.name}, rows.size());
+    if (fresh) rows.push_back({&o});
+    rows[at->second].time += o.time;
+    ++rows[at->second].times;
   }
-  if (report.operations.size() > most)
-    out += "             … and " + std::to_string(report.operations.size() - most) +
-           " more, in result.json\n";
+  std::string out = "  time     by operation:\n";
+  for (std::size_t i = 0; i < std::min(most, rows.size()); ++i) {
+    const Operation& o = *rows[i].first;
+    out += "             " + clock(rows[i].time) + "  " +
+           (o.tool > 0 ? "T" + std::to_string(o.tool) + "  " : std::string()) + "line " +
+           std::to_string(o.line) + (o.name.empty() ? "" : "  " + printable(o.name)) +
+           (rows[i].times > 1 ? " (" + std::to_string(rows[i].times) + " times)" : "") + "\n";
+  }
+  if (rows.size() > most)
+    out += "             … and " + std::to_string(rows.size() - most) + " more, in result.json\n";
   return out;
 }
 

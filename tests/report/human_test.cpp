@@ -103,6 +103,15 @@ TEST_F(Human, DoesNotLetManyOfAKindHideAnother) {
   EXPECT_NE(out.find("(151 errors, 0 warnings)"), std::string::npos) << out;
 }
 
+TEST_F(Human, TellsWhatALoopDoesAgainInOneLine) {
+  RunReport r = samples_.clean();
+  r.operations = {{"rim", 3, 1, 60}, {"pass", 5, 1, 10}, {"pass", 5, 1, 12}, {"pass", 5, 2, 1}};
+  const std::string out = text(r);
+  EXPECT_NE(out.find("1:00.0  T1  line 3  rim\n"), std::string::npos) << out;
+  EXPECT_NE(out.find("0:22.0  T1  line 5  pass (2 times)\n"), std::string::npos) << out;
+  EXPECT_NE(out.find("0:01.0  T2  line 5  pass\n"), std::string::npos) << out;
+}
+
 TEST_F(Human, IsOneLineWhenQuiet) {
   const std::string out = to_human(samples_.full(), {.style = {}, .quiet = true});
   EXPECT_TRUE(out.starts_with("verdict: fail ("));
