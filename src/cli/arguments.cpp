@@ -86,6 +86,23 @@ void add_output(CLI::App* app, OutputArguments& o, std::string& fail_on) {
   add_color(app, o.color);
 }
 
+void add_view(CLI::App* app, ViewArguments& view, const std::string& more_cameras) {
+  app->add_option("--camera", view.camera,
+                  more_cameras + "iso, front, back, left, right, top, fit=BODY or X,Y,Z,tx,ty,tz")
+      ->type_name("NAME");
+  app->add_option("--section", view.section,
+                  "cut the pictures open at a plane of the work's frame: X=12.5, Y=0 or Z=-4 (mm)")
+      ->type_name("AXIS=MM");
+  app->add_option("--hide", view.hidden,
+                  "a body that pictures leave out; NAME* for all that begin so (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("BODY");
+  app->add_option("--see-through", view.see_through,
+                  "a body that pictures show translucent, such as a cover (repeatable)")
+      ->allow_extra_args(false)
+      ->type_name("BODY");
+}
+
 // Which checks there are; `existing` of them can be asked of this command.
 void add_checks(CLI::App* app, std::vector<std::string>& checks,
                 const std::vector<std::string>& existing) {
@@ -222,24 +239,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
                    "every=2s, at=12.5,80, line=128, tool-change, finding, count=24 (repeatable; "
                    "with -o default count=12 and finding; none for no frames)")
       ->type_name("SPEC");
-  c_run
-      ->add_option("--camera", run.camera,
-                   "work, tool (follows it), iso, front, back, left, right, top or "
-                   "X,Y,Z,tx,ty,tz")
-      ->type_name("NAME");
-  c_run
-      ->add_option("--section", run.section,
-                   "cut the pictures open at a plane of the work's frame: X=12.5, Y=0 or Z=-4 (mm)")
-      ->type_name("AXIS=MM");
-  c_run
-      ->add_option("--hide", run.hidden,
-                   "a body that pictures leave out; NAME* for all that begin "
-                   "so (repeatable)")
-      ->type_name("BODY");
-  c_run
-      ->add_option("--see-through", run.see_through,
-                   "a body that pictures show translucent, such as a cover (repeatable)")
-      ->type_name("BODY");
+  add_view(c_run, run.view, "work, tool (follows it), ");
   c_run
       ->add_option("--stock-colors", run.stock_colors,
                    "plain, or tool: what each tool has cut in a colour of its own (milling)")
@@ -317,10 +317,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       add_machine("render", "a picture of the machine at home", MachineArguments::Action::render);
   c_render->add_option("-o,--out", machine.output, "PNG file (default machine.png)")
       ->type_name("FILE");
-  c_render
-      ->add_option("--camera", machine.camera,
-                   "iso, front, back, left, right, top or X,Y,Z,tx,ty,tz")
-      ->type_name("NAME");
+  add_view(c_render, machine.view, "");
   c_render->add_option("--size", size, "picture size (default 1280x800)")->type_name("WxH");
   c_render->add_option("--tool", machine.tool, "tool in the spindle")->type_name("T");
   c_render->add_flag("--force", machine.force, "replace a file that exists");

@@ -42,6 +42,13 @@ struct OutputArguments {
   std::string baseline;                   ///< file
 };
 
+/// What pictures show, and from where.
+struct ViewArguments {
+  std::string camera = "iso";
+  std::string section = {};                                ///< --section AXIS=MM; empty: none
+  std::vector<std::string> hidden = {}, see_through = {};  ///< bodies, by name or NAME*
+};
+
 struct RunArguments {
   ProgramArguments program;
   OutputArguments output;
@@ -57,11 +64,9 @@ struct RunArguments {
   double near = 2;
   std::vector<std::string> checks;  ///< empty: all
   std::vector<std::string> frames;
-  std::string camera = "work";
-  std::string section;                           ///< --section AXIS=MM; empty: none
-  std::vector<std::string> hidden, see_through;  ///< bodies, by name or NAME*
-  std::string stock_colors = "plain";            ///< or tool
-  std::string path_colors = "kind";              ///< or time, none
+  ViewArguments view{.camera = "work"};
+  std::string stock_colors = "plain";  ///< or tool
+  std::string path_colors = "kind";    ///< or time, none
   int width = 1280, height = 800;
   std::vector<std::string> motion;  ///< forms of the animation
   std::optional<double> max_time;
@@ -86,7 +91,7 @@ struct MachineArguments {
   std::string machine, setup, tools;
   int tool = 0;
   std::string output = "machine.png";
-  std::string camera = "iso";
+  ViewArguments view;
   int width = 1280, height = 800;
   bool force = false;
   std::string formula;       ///< create: `machine` is the folder that is written

@@ -6,6 +6,7 @@
 
 #include "cli/exit_code.h"
 #include "cli/job.h"
+#include "cli/view.h"
 
 namespace aircut::cli {
 
@@ -73,15 +74,23 @@ int render_machine(const MachineArguments& a, const Job& job) {
       return fail(
           make_error("usage", "tool T" + std::to_string(a.tool) + " is not in the tool table"));
   }
+  const auto view = view_of(a.view);
+  if (!view) return fail(view.error());
+  if (a.view.camera == "work" || a.view.camera == "tool")
+    return fail(make_error("usage", "--camera " + a.view.camera + " is for the pictures of a run"));
+  if (auto known = report::check_view(*job.machine, *view); !known) return fail(known.error());
   render::Scene picture;
   picture.bodies = report::draw_bodies(scene, job.start);
+  view->select(picture.bodies);
   picture.caption.left = {printable(job.machine->name())};
-  Box3 box;
-  for (const render::DrawBody& body : picture.bodies)
-    box.extend(bounds(*body.mesh).transformed(body.X_WB));
-  const auto camera = render::camera_by_name(a.camera == "work" ? "iso" : a.camera, box,
-                                             static_cast<double>(a.width) / a.height);
+  const auto camera = view->fitted_camera(picture.bodies, static_cast<double>(a.width) / a.height);
   if (!camera) return fail(camera.error());
+  machine::LinkPoses poses;
+  machine::forward(*job.machine, job.start, poses);
+  view->cut_open(picture,
+                 poses.X_WL[static_cast<std::size_t>(machine::index(job.machine->work_link()))] *
+                     job.machine->X_LM(),
+                 *camera);
   auto renderer = render::Renderer::create({a.width, a.height});
   if (!renderer) return fail(renderer.error());
   if (auto written = write_file(a.output, render::png_bytes(renderer->draw(picture, *camera)));

@@ -15,6 +15,7 @@
 #include "cli/job.h"
 #include "cli/overrides.h"
 #include "cli/print_report.h"
+#include "cli/view.h"
 #include "log/log.h"
 #include "logbook/logbook.h"
 #include "page/glb.h"
@@ -233,23 +234,18 @@ std::vector<std::string> unchecked_of(const Job& job, const Checks& checks) {
 
 Expected<report::FrameOptions> frame_options(const RunArguments& a) {
   report::FrameOptions options;
-  options.camera = a.camera;
+  const auto view = view_of(a.view);
+  if (!view) return unexpected(view.error());
+  options.view = *view;
   options.size = {a.width, a.height};
   options.program = a.program.program;
   options.motion = wants_motion(a, "png");
   options.video = wants_motion(a, "mp4");
-  options.hidden = a.hidden;
-  options.see_through = a.see_through;
   options.stock_by_tool = a.stock_colors == "tool";
   using Path = report::FrameOptions::Path;
   options.path = a.path_colors == "none"   ? Path::none
                  : a.path_colors == "time" ? Path::time
                                            : Path::kind;
-  if (!a.section.empty()) {
-    const auto section = report::section_of(a.section);
-    if (!section) return unexpected(section.error());
-    options.section = *section;
-  }
   for (const std::string& text : a.frames)
     if (text != "none")
       if (auto added = report::add_frames(options.spec, text); !added)
@@ -258,10 +254,6 @@ Expected<report::FrameOptions> frame_options(const RunArguments& a) {
     options.spec.count = 12;
     options.spec.findings = true;
   }
-  if (a.camera != "work" && a.camera != "tool")
-    if (const auto camera = render::camera_by_name(a.camera, Box3(Vec3(0, 0, 0), Vec3(1, 1, 1)), 1);
-        !camera)
-      return unexpected(camera.error());
   return options;
 }
 
@@ -369,7 +361,8 @@ int run_command(const RunArguments& a) {
   simulator.add_observer(operations);
   std::unique_ptr<report::FrameMaker> pictures;
   if (!a.folder.empty() && frames->spec.any()) {
-    if (const auto ok = report::check_bodies(*job.machine, *frames); !ok) return fail(ok.error());
+    if (const auto ok = report::check_view(*job.machine, frames->view); !ok)
+      return fail(ok.error());
     pictures = std::make_unique<report::FrameMaker>(job.machine, job.tools, *frames);
     simulator.add_observer(*pictures);
   }

@@ -60,17 +60,6 @@ std::string padded_time(double t) {
   return std::string(text.size() < 9 ? 9 - text.size() : 0, '0') + text;
 }
 
-// A name, or its beginning and a `*`.
-bool matches(const std::string& pattern, const std::string& name) {
-  if (pattern.ends_with('*')) return name.starts_with(pattern.substr(0, pattern.size() - 1));
-  return name == pattern;
-}
-
-bool matches_any(const std::vector<std::string>& patterns, const std::string& name) {
-  return std::any_of(patterns.begin(), patterns.end(),
-                     [&](const std::string& p) { return matches(p, name); });
-}
-
 // Tools that follow one another differ clearly.
 machine::Color tool_color(int number) {
   static constexpr std::array<machine::Color, 10> colors = {{{92, 158, 214},
@@ -88,39 +77,9 @@ machine::Color tool_color(int number) {
 
 }  // namespace
 
-Expected<FrameOptions::Section> section_of(const std::string& text) {
-  const auto at = text.size() > 2 && text[1] == '=' ? parse_number(text.substr(2)) : std::nullopt;
-  const std::size_t axis = text.empty() ? std::string::npos : std::string("XYZ").find(text[0]);
-  if (!at || axis == std::string::npos)
-    return unexpected(usage("--section " + printable(text) +
-                            ": write X, Y or Z, = and a number in mm of the work's frame, like "
-                            "Y=12.5"));
-  FrameOptions::Section out;
-  out.normal = Vec3::Unit(static_cast<Eigen::Index>(axis));
-  out.at = *at;
-  return out;
-}
-
 Expected<void> video_ready() {
   const auto found = find_ffmpeg();
   if (!found) return unexpected(found.error());
-  return {};
-}
-
-Expected<void> check_bodies(const machine::Machine& machine, const FrameOptions& options) {
-  std::vector<std::string> known;
-  for (const machine::Body& body : machine.bodies()) known.push_back(body.name);
-  for (const auto* list : {&options.hidden, &options.see_through})
-    for (const std::string& pattern : *list) {
-      const bool of_a_tool =
-          pattern.size() > 1 && pattern[0] == 'T' && pattern[1] >= '0' && pattern[1] <= '9';
-      if (of_a_tool || std::any_of(known.begin(), known.end(),
-                                   [&](const std::string& name) { return matches(pattern, name); }))
-        continue;
-      return unexpected(usage("--" + std::string(list == &options.hidden ? "hide" : "see-through") +
-                              " " + printable(pattern) + ": the machine has no such body." +
-                              did_you_mean(pattern, known)));
-    }
   return {};
 }
 
@@ -307,11 +266,7 @@ struct FrameMaker::Impl {
     render::Scene out;
     out.bodies = draw_bodies(scene, shot.joints);
     if (auto put = put_stock(out, shot.t); !put) return unexpected(put.error());
-    std::erase_if(out.bodies, [&](const render::DrawBody& body) {
-      return matches_any(options.hidden, body.name);
-    });
-    for (render::DrawBody& body : out.bodies)
-      body.translucent = matches_any(options.see_through, body.name);
+    options.view.select(out.bodies);
     if (options.path == FrameOptions::Path::kind) out.lines = path.lines(X_WM(shot.joints), shot.t);
     if (options.path == FrameOptions::Path::time) {
       out.lines = path.lines_by_time(X_WM(shot.joints));
@@ -348,7 +303,7 @@ struct FrameMaker::Impl {
     if (!box.isEmpty()) box.extend(Vec3(box.max() + Vec3(0, 0, room_for_tool)));
     const auto& bodies = scene.bodies();
     for (std::size_t i = 0, k = 0; i < bodies.size(); ++i) {
-      if (!bodies[i].body.mesh || matches_any(options.hidden, bodies[i].body.name)) continue;
+      if (!bodies[i].body.mesh || options.view.hides(bodies[i].body.name)) continue;
       const render::DrawBody& body = drawn.bodies[k++];
       const machine::Role role = bodies[i].body.role;
       if (role == machine::Role::part || role == machine::Role::stock ||
@@ -358,36 +313,18 @@ struct FrameMaker::Impl {
     return box;
   }
 
-  Box3 whole_box(const render::Scene& drawn) const {
-    Box3 box;
-    for (const render::DrawBody& body : drawn.bodies)
-      box.extend(bounds(*body.mesh).transformed(body.X_WB));
-    return box;
-  }
-
   Expected<render::Camera> camera_for(const Snapshot& shot, const render::Scene& drawn) const {
     const double aspect = static_cast<double>(options.size.width) / options.size.height;
-    if (options.camera == "tool") {
+    if (options.view.camera == "tool") {
       constexpr double around = 70;  // mm to each side of the tip, and twice as much above it
       const Vec3 tip = X_WM(shot.joints) * shot.tip;
       return render::camera_by_name(
           "iso", Box3(Vec3(tip.array() - around), Vec3(tip + around * Vec3(1, 1, 2))), aspect);
     }
-    if (options.camera != "work")
-      return render::camera_by_name(options.camera, whole_box(drawn), aspect);
-    Box3 box = work_box(shot, drawn);
-    if (box.isEmpty()) box = whole_box(drawn);
+    if (options.view.camera != "work") return options.view.fitted_camera(drawn.bodies, aspect);
+    const Box3 box = work_box(shot, drawn);
+    if (box.isEmpty()) return View{}.fitted_camera(drawn.bodies, aspect);
     return render::camera_by_name("iso", box, aspect);
-  }
-
-  // The camera's side is cut away.
-  void cut_open(render::Scene& drawn, const Snapshot& shot, const render::Camera& camera) const {
-    if (!options.section) return;
-    const Pose X = X_WM(shot.joints);
-    render::Section section{X * Vec3(options.section->normal * options.section->at),
-                            X.linear() * options.section->normal};
-    if (section.normal.dot(camera.eye - section.point) < 0) section.normal = -section.normal;
-    drawn.section = section;
   }
 
   sim::Scene scene;
@@ -491,7 +428,7 @@ Expected<render::Image> FrameMaker::Impl::draw(const Job& job, render::Renderer&
   if (!job.finding) {
     const auto camera = camera_for(job.shot, drawn);
     if (!camera) return unexpected(camera.error());
-    cut_open(drawn, job.shot, *camera);
+    options.view.cut_open(drawn, X_WM(job.shot.joints), *camera);
     return renderer.draw(drawn, *camera);
   }
   const sim::Finding& f = *job.finding;
@@ -502,7 +439,7 @@ Expected<render::Image> FrameMaker::Impl::draw(const Job& job, render::Renderer&
   if (!f.points.empty()) {
     constexpr double span = 260;  // mm across: a tool, its holder and what it met
     const render::Camera camera = renderer.camera_for_finding(drawn.bodies, f.points.front(), span);
-    cut_open(drawn, job.shot, camera);
+    options.view.cut_open(drawn, X_WM(job.shot.joints), camera);
     return renderer.draw(drawn, camera);
   }
   // No contact: the place on the path, seen as the other frames see the work.
@@ -510,7 +447,7 @@ Expected<render::Image> FrameMaker::Impl::draw(const Job& job, render::Renderer&
       {X_WM(f.joints_worst) * Vec3(f.tip[Axis::x], f.tip[Axis::y], f.tip[Axis::z])});
   const auto camera = camera_for(job.shot, drawn);
   if (!camera) return unexpected(camera.error());
-  cut_open(drawn, job.shot, *camera);
+  options.view.cut_open(drawn, X_WM(job.shot.joints), *camera);
   return renderer.draw(drawn, *camera);
 }
 

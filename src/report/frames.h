@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/render.h"
+#include "report/view.h"
 #include "sim/sim.h"
 
 namespace aircut::report {
@@ -29,31 +30,17 @@ Expected<void> add_frames(FrameSpec& spec, const std::string& text);
 
 struct FrameOptions {
   FrameSpec spec;
-  /// `work` (the work and the tool), `tool` (follows its tip), or a name of camera_by_name
-  std::string camera = "work";
+  View view;
   render::FrameSize size;
-  std::string program;  ///< for the caption
-  bool motion = false;  ///< also motion.png: the sheet's pictures one after the other
-  bool video = false;   ///< also motion.mp4, by ffmpeg
-  /// A plane of the work's frame; what stands before it, as the camera sees it, is cut away.
-  struct Section {
-    Vec3 normal = Vec3::UnitX();
-    double at = 0;  ///< mm along the normal
-  };
-  std::optional<Section> section;
-  /// Bodies not drawn, and drawn translucent: names, or their beginning and a `*`.
-  std::vector<std::string> hidden, see_through;
+  std::string program;         ///< for the caption
+  bool motion = false;         ///< also motion.png: the sheet's pictures one after the other
+  bool video = false;          ///< also motion.mp4, by ffmpeg
   bool stock_by_tool = false;  ///< every tool's surfaces in a colour of their own
   enum class Path : unsigned char { kind, time, none } path = Path::kind;  ///< colours of it
 };
 
-/// `X=12.5`, `Y=…` or `Z=…`. Error kind `usage`.
-Expected<FrameOptions::Section> section_of(const std::string& text);
 /// Whether motion.mp4 can be made. Error kind `output_failed`.
 Expected<void> video_ready();
-/// Error kind `usage` when `hidden` or `see_through` name no body of the machine or of a tool.
-Expected<void> check_bodies(const machine::Machine& machine, const FrameOptions& options);
-
 /// A moment of the run that may become a picture.
 struct Snapshot {
   double t = 0;

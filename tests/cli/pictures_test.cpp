@@ -48,6 +48,7 @@ TEST_F(Pictures, AreRefusedBeforeTheRunWhenTheyCannotBeMade) {
       {"--stock-colors red", "plain"},
       {"--path-colors red", "time"},
       {"--camera nowhere", "there is no camera"},
+      {"--camera fit=vize", "no such body"},
       {"--size 0x0", "from 16 to 8192"},
       {"--frames none --motion mp4", "show the frames"},
   };
@@ -74,6 +75,31 @@ TEST_F(Pictures, CanBeCutOpenAndLackBodies) {
     EXPECT_NE(*other, plain);
   EXPECT_NE(by_time, bare);
   EXPECT_NE(through, follows);
+}
+
+TEST_F(Pictures, OfAMachineCanBeCutOpenAndLackBodiesAndFitOne) {
+  std::vector<std::string> seen;
+  const auto picture = [&](const std::string& more) {
+    const Outcome outcome =
+        aircut("machine render -m mill3 --size 160x120 --force -o " + path("m.png") + " " + more);
+    EXPECT_EQ(outcome.code, 0) << more << "\n" << outcome.err;
+    return text_of(path("m.png"));
+  };
+  for (const char* more :
+       {"", "--section X=0", "--see-through 'vise*'", "--hide 'vise*'", "--camera 'fit=vise*'"})
+    for (seen.push_back(picture(more)); const std::string& other : seen)
+      if (&other != &seen.back()) {
+        EXPECT_NE(other, seen.back()) << more;
+      }
+  for (const auto& [more, words] :
+       {std::pair("--hide colum", "no such body"), std::pair("--camera tool", "of a run"),
+        std::pair("--section Z", "write X, Y or Z")}) {
+    const Outcome outcome =
+        aircut("machine render -m mill3 -o " + path("no.png") + " " + std::string(more));
+    EXPECT_EQ(outcome.code, 2) << more;
+    EXPECT_TRUE(outcome.says(words)) << outcome.err;
+    EXPECT_FALSE(fs::exists(path("no.png")));
+  }
 }
 
 TEST_F(Pictures, BecomeAFilmThroughFfmpeg) {
