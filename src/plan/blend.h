@@ -37,8 +37,8 @@ struct CornerBlend {
 /// How large the acceleration on a blend would be at the wanted speed, as a share of the limits.
 struct Demand {
   std::function<double(const Blend&)> of_blend;
-  /// For a blend between lines that cuts off `cut` mm, on a machine whose joints are linear in the
-  /// tip; empty on others.
+  /// For a blend between lines that cuts off `cut` mm, where the joints go so nearly straight with
+  /// the tip that their directions along the lines tell it; empty elsewhere.
   std::function<double(const CornerRates&, double cut)> of_lines;
 };
 

@@ -73,6 +73,7 @@ class GridMaker {
  private:
   std::optional<ReachError> node(double s, const JointVector& near, Node& out) const;
   void limit(Node& node) const;
+  bool hardly_moves(const Node& first) const;
   bool is_uniform(bool identity, const Node& first, const Node& last) const;
   std::optional<double> row_error(const Node& a, const Node& m, const Node& b) const;
   bool split(const Node& a, const Node& b, int depth);
@@ -149,6 +150,13 @@ void GridMaker::limit(Node& out) const {
     out.cap = out.joint_cap;
     out.why = out.joint_why;
   }
+}
+
+// True if the joints' rates at the start let none go far: the start then is near enough to the end.
+bool GridMaker::hardly_moves(const Node& first) const {
+  constexpr double most = 0.05;  // mm or rad
+  const JointPoint& at = first.joint;
+  return ((at.dq.cwiseAbs() + length_ * at.ddq.cwiseAbs()) * length_).maxCoeff() < most;
 }
 
 // Joints linear in s: the same q' everywhere and no q''. Identity kinematics on a line by
@@ -269,7 +277,7 @@ std::optional<GridFailure> GridMaker::make(bool identity, const JointVector& nea
   }
   // The end is reached over the middle, so that `near` is never a long way off.
   JointVector guess = first.joint.q;
-  if (!identity) {
+  if (!identity && !hardly_moves(first)) {
     for (int i = 1; i < 16; ++i) {
       const auto q = path_.joints(length_ * i / 16, guess);
       if (!q) return GridFailure{length_ * (i - 1) / 16, false, q.error().reason};

@@ -130,24 +130,19 @@ PathPoint evaluate_blend(const Blend& blend, double s) {
   return out;
 }
 
-// Control points of the part of the curve between two values of u.
-std::array<AxisValues, 6> control_between(const Blend& blend, double u0, double u1) {
-  // Cut at u1 and keep the left part, then cut that at u0 / u1 and keep the right part.
-  const double cut = u1 > 0 ? std::clamp(u0 / u1, 0.0, 1.0) : 0;
-  std::array<AxisValues, 6> out;
-  for (const Axis axis : all_axes) {
-    std::array<double, 6> c{}, left{};
-    for (std::size_t i = 0; i < 6; ++i) c[i] = blend.control[i][axis];
-    for (std::size_t n = 6; n > 0; --n) {
-      left[6 - n] = c[0];
-      for (std::size_t i = 0; i + 1 < n; ++i) c[i] += u1 * (c[i + 1] - c[i]);
-    }
-    for (std::size_t n = 6; n > 0; --n) {
-      out[n - 1][axis] = left[n - 1];
-      for (std::size_t i = 0; i + 1 < n; ++i) left[i] += cut * (left[i + 1] - left[i]);
-    }
+// Control points along one axis of the part of the curve between two values of u: cut at u1 and
+// keep the left part, then cut that at u0 / u1 and keep the right part.
+std::array<double, 6> control_between(std::array<double, 6> c, double u0, double u1) {
+  if (u1 < 1) {
+    for (std::size_t last = 5; last > 0; --last)
+      for (std::size_t i = 5; i > 5 - last; --i) c[i] = c[i - 1] + u1 * (c[i] - c[i - 1]);
   }
-  return out;
+  if (u0 > 0) {
+    const double cut = std::min(u0 / u1, 1.0);
+    for (std::size_t last = 5; last > 0; --last)
+      for (std::size_t i = 0; i < last; ++i) c[i] += cut * (c[i + 1] - c[i]);
+  }
+  return c;
 }
 
 machine::TipInterval bounds_line(const Line& line, double s0, double s1) {
@@ -216,16 +211,23 @@ machine::TipInterval bounds_arc(const Arc& arc, double s0, double s1) {
 machine::TipInterval bounds_blend(const Blend& blend, double s0, double s1) {
   const double u0 = std::clamp(parameter_at(blend, s0).u, 0.0, 1.0);
   const double u1 = std::clamp(parameter_at(blend, s1).u, u0, 1.0);
-  const std::array<AxisValues, 6> part = control_between(blend, u0, u1);
   machine::TipInterval out;
-  for (const Axis axis : all_axes) {
-    double low = part[0][axis], high = low, travel = 0, size = 0;
-    for (const AxisValues& p : blend.control) size = std::max(size, std::abs(p[axis]));
+  const std::size_t axes = blend.xyz_only ? 3 : 9;
+  out.low = out.high = blend.control[0];
+  for (std::size_t k = 0; k < axes; ++k) {
+    const Axis axis = all_axes[k];
+    std::array<double, 6> part{};
+    double size = 0;
+    for (std::size_t i = 0; i < 6; ++i) {
+      part[i] = blend.control[i].value[k];
+      size = std::max(size, std::abs(part[i]));
+    }
+    part = control_between(part, u0, u1);
+    double low = part[0], high = low, travel = 0;
     for (std::size_t i = 1; i < 6; ++i) {
-      const double value = part[i][axis];
-      low = std::min(low, value);
-      high = std::max(high, value);
-      travel += std::abs(value - part[i - 1][axis]);
+      low = std::min(low, part[i]);
+      high = std::max(high, part[i]);
+      travel += std::abs(part[i] - part[i - 1]);
     }
     const double slack = high > low ? 1e-14 * size : 0;
     out.low[axis] = low - slack;

@@ -82,14 +82,12 @@ Shaper::Corner Shaper::corner_to(const Move& right) const {
     const auto load = [&](const Blend& blend) {
       return load_of(*kinematics_, blend, feed, left.segment.tool_offset, limits_, joints_);
     };
-    const auto load_between = [&](const CornerRates& rates, double cut) {
-      return line_load(in, out, rates, cut, feed);
-    };
+    const auto directions = line_directions(in, out, shape, left.segment.tool_offset);
     Demand demand;
     demand.of_blend = [&load](const Blend& b) { return load(b).demand(); };
-    if (linear_joints_)
-      demand.of_lines = [&load_between](const CornerRates& rates, double cut) {
-        return load_between(rates, cut).demand();
+    if (directions)
+      demand.of_lines = [&](const CornerRates& rates, double cut) {
+        return line_load(in, out, *directions, rates, cut, feed).demand();
       };
     if (auto corner = make_blend(shape, demand)) {
       if (!limits_.has_jerk()) return *corner;
@@ -102,17 +100,41 @@ Shaper::Corner Shaper::corner_to(const Move& right) const {
   return Rest{};
 }
 
-// What a blend between two lines asks, by their directions (p' at the corner). Joints are linear in
-// the tip, so one joint point tells the joints' directions.
-CornerLoad Shaper::line_load(const AxisValues& in, const AxisValues& out, const CornerRates& rates,
-                             double cut, double feed) const {
+// q' on both sides of a corner between two lines, by their directions (p' at the corner); nothing
+// where the joints' directions change along a blend, so that they don't tell what it asks.
+std::optional<Shaper::Directions> Shaper::line_directions(const AxisValues& in,
+                                                          const AxisValues& out,
+                                                          const CornerShape& corner,
+                                                          const AxisValues& tool_offset) const {
   const machine::Kinematics& kinematics = *kinematics_;
-  machine::JointVector dq_in, dq_out, none;
-  kinematics.rates({}, joints_, in, {}, dq_in, none);
-  kinematics.rates({}, joints_, out, {}, dq_out, none);
+  Directions to;
+  machine::JointVector none;
+  if (linear_joints_) {
+    kinematics.rates({}, joints_, in, {}, to.in, none);
+    kinematics.rates({}, joints_, out, {}, to.out, none);
+    return to;
+  }
+  if (!std::holds_alternative<Line>(corner.left) || !std::holds_alternative<Line>(corner.right))
+    return std::nullopt;
+  const machine::Target target{evaluate(corner.right, 0).p, tool_offset};
+  const double cut = std::min(corner.left_room, corner.right_room);
+  constexpr double little = 0.01;
+  for (const auto& [direction, dq] : {std::pair{&in, &to.in}, {&out, &to.out}}) {
+    auto joint = joint_point(kinematics, target, *direction, {}, joints_);
+    if (!joint || !(cut * joint->ddq.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff() <
+                    little * joint->dq.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff()))
+      return std::nullopt;
+    *dq = std::move(joint->dq);
+  }
+  return to;
+}
+
+CornerLoad Shaper::line_load(const AxisValues& in, const AxisValues& out,
+                             const Directions& directions, const CornerRates& rates, double cut,
+                             double feed) const {
   double cosine = 0;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) cosine += in[axis] * out[axis];
-  return load_of_lines(rates, cut, dq_in, dq_out, cosine, feed, limits_);
+  return load_of_lines(rates, cut, directions.in, directions.out, cosine, feed, limits_);
 }
 
 void Shaper::push(Move move) {

@@ -65,8 +65,15 @@ class Shaper {
 
   Corner corner_to(const Move& right) const;
   double jerk_entry(double scale) const;
-  CornerLoad line_load(const AxisValues& in, const AxisValues& out, const CornerRates& rates,
-                       double cut, double feed) const;
+  /// q' along the two sides of a corner.
+  struct Directions {
+    machine::JointVector in, out;
+  };
+  std::optional<Directions> line_directions(const AxisValues& in, const AxisValues& out,
+                                            const CornerShape& corner,
+                                            const AxisValues& tool_offset) const;
+  CornerLoad line_load(const AxisValues& in, const AxisValues& out, const Directions& directions,
+                       const CornerRates& rates, double cut, double feed) const;
   void finish_pending();
   void add_blend(const Move& left, const Move& right, const CornerBlend& corner);
   void add_range(Move& move, double begin, double end);
