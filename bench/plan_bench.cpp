@@ -47,7 +47,8 @@ struct Path {
   double step;  // mm per move
   double p, q;  // G64
   double feed = 50;
-  double turn = 0;  // of A, B and C, rad per mm
+  double turn = 0;  // of `turned`, rad per mm
+  std::vector<Axis> turned = {};
 };
 
 // A wave of short moves back and forth, as CAM systems write them.
@@ -59,17 +60,16 @@ void wave(const Path& path, int moves, const AxisValues& middle, Push push) {
   for (int i = 1; i <= moves; ++i) {
     const double a = i * path.step / 20;
     AxisValues tip = middle + xyz(20 * std::sin(a), 10 * std::cos(a), 3 * std::sin(3 * a));
-    for (const Axis axis : {Axis::a, Axis::b, Axis::c})
+    for (const Axis axis : path.turned)
       tip[axis] += 20 * path.turn * std::sin((1 + static_cast<double>(index(axis))) * a / 3);
     push(canon::LinearFeed{tip});
   }
 }
 
-void plan(benchmark::State& state, const machine::Machine& machine, const AxisValues& middle,
-          const Path& path) {
+void plan_near(benchmark::State& state, const machine::Machine& machine, const AxisValues& middle,
+               const Path& path, const machine::JointVector& near) {
   const auto moves = static_cast<int>(state.range(0));
-  const auto start =
-      machine.kinematics().inverse({middle, {}}, machine::JointVector::Zero(machine.joint_count()));
+  const auto start = machine.kinematics().inverse({middle, {}}, near);
   double seconds = 0;
   for (auto _ : state) {
     plan::Planner planner(machine, *start, {});
@@ -92,6 +92,11 @@ void plan(benchmark::State& state, const machine::Machine& machine, const AxisVa
   state.counters["x real time"] = benchmark::Counter(seconds, benchmark::Counter::kIsRate);
 }
 
+void plan(benchmark::State& state, const machine::Machine& machine, const AxisValues& middle,
+          const Path& path) {
+  plan_near(state, machine, middle, path, machine::JointVector::Zero(machine.joint_count()));
+}
+
 void mill_lines(benchmark::State& state) { plan(state, mill(), {}, {1, 0.02, 0}); }
 void mill_short_lines(benchmark::State& state) { plan(state, mill(), {}, {0.05, 0.01, 0}); }
 void mill_merged(benchmark::State& state) { plan(state, mill(), {}, {0.05, 0.01, 0.005}); }
@@ -110,8 +115,10 @@ machine::Machine six_joints(double jmax = std::numeric_limits<double>::infinity(
   m.kinematics_ = machine::make_identity({Axis::x, Axis::y, Axis::z, Axis::a, Axis::b, Axis::c});
   return m;
 }
-constexpr Path six_lines{.step = 1, .p = 0.02, .q = 0, .turn = 0.02};
-constexpr Path six_short_lines{.step = 0.05, .p = 0.01, .q = 0, .turn = 0.02};
+const Path six_lines{
+    .step = 1, .p = 0.02, .q = 0, .turn = 0.02, .turned = {Axis::a, Axis::b, Axis::c}};
+const Path six_short_lines{
+    .step = 0.05, .p = 0.01, .q = 0, .turn = 0.02, .turned = {Axis::a, Axis::b, Axis::c}};
 void six_joints_lines(benchmark::State& state) { plan(state, six_joints(), {}, six_lines); }
 void six_joints_short_lines(benchmark::State& state) {
   plan(state, six_joints(), {}, six_short_lines);
@@ -120,6 +127,48 @@ void six_joints_jerk(benchmark::State& state) { plan(state, six_joints(30000), {
 void six_joints_jerk_short(benchmark::State& state) {
   plan(state, six_joints(30000), {}, six_short_lines);
 }
+
+// A shipped machine around its home; `tilt` turns it away from where two axes fall together.
+void shipped(benchmark::State& state, const char* name, const AxisValues& tilt, const Path& path) {
+  SourceMap sources;
+  Diagnostics diagnostics;
+  const auto machine = machine::read_machine(std::string(AIRCUT_SOURCE_DIR "/machines/") + name,
+                                             sources, diagnostics);
+  if (!machine) return state.SkipWithError("no such machine");
+  const machine::JointVector home = (*machine)->home();
+  const auto tip = (*machine)->kinematics().forward(home, {});
+  plan_near(state, **machine, *tip + tilt, path, home);
+}
+
+AxisValues tilted(double a, double b) {
+  AxisValues out;
+  out[Axis::a] = a;
+  out[Axis::b] = b;
+  return out;
+}
+const Path lines{.step = 1, .p = 0.02, .q = 0};
+const Path short_lines{.step = 0.05, .p = 0.01, .q = 0};
+const Path turning_lines{.step = 1, .p = 0.02, .q = 0, .turn = 0.002, .turned = {Axis::a, Axis::c}};
+const Path turning_short_lines{
+    .step = 0.05, .p = 0.01, .q = 0, .turn = 0.002, .turned = {Axis::a, Axis::c}};
+BENCHMARK_CAPTURE(shipped, ox_glide_crossed, "ox-glide-crossed", AxisValues(), lines)
+    ->Arg(2000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(shipped, ox_glide_crossed_short, "ox-glide-crossed", AxisValues(), short_lines)
+    ->Arg(10000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(shipped, mill5_ac, "mill5-ac", tilted(0.3, 0), turning_lines)
+    ->Arg(2000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(shipped, mill5_ac_short, "mill5-ac", tilted(0.3, 0), turning_short_lines)
+    ->Arg(10000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(shipped, lola50_6r, "lola50-6r", AxisValues(), turning_lines)
+    ->Arg(2000)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(shipped, lola50_6r_short, "lola50-6r", AxisValues(), turning_short_lines)
+    ->Arg(10000)
+    ->Unit(benchmark::kMillisecond);
 
 // The cost of a line against the length of the program.
 BENCHMARK(mill_short_lines)

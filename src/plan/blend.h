@@ -27,11 +27,17 @@ struct CornerRates {
   double length = 0;
 };
 
+/// q' and q'' of the joints along the two sides of a corner between lines, by the lines' length.
+struct CornerDirections {
+  machine::JointVector in, out, bend_in, bend_out;
+};
+
 struct CornerBlend {
   Blend blend;
   double cut = 0;  ///< taken off each side, along s
   /// Between lines; nothing where the table does not have this curve's parameter.
   std::optional<CornerRates> rates = {};
+  CornerDirections directions = {};  ///< empty where they are not known
 };
 
 /// How large the acceleration on a blend would be at the wanted speed, as a share of the limits.

@@ -68,10 +68,13 @@ class GridMaker {
         grid_(out.grid),
         ends_(out.ends) {}
 
-  std::optional<GridFailure> make(bool identity, const JointVector& near, bool goes_on);
+  std::optional<GridFailure> make(bool identity, const JointVector& near, Follows follows,
+                                  bool passes);
 
  private:
-  std::optional<ReachError> node(double s, const JointVector& near, Node& out) const;
+  std::optional<ReachError> node(double s, const JointVector& near, Node& out,
+                                 bool at_end = false) const;
+  bool from_end_before(const JointVector& near, Node& out) const;
   void limit(Node& node) const;
   bool hardly_moves(const Node& first) const;
   bool is_uniform(bool identity, const Node& first, const Node& last) const;
@@ -106,11 +109,47 @@ bool GridMaker::from_table(double s, Node& out) const {
     out.dd = (dd[0] / known_->cut) * known_->d_in + (dd[1] / known_->cut) * known_->d_out;
   out.joint.dq = d[0] * known_->dq_in + d[1] * known_->dq_out;
   out.joint.ddq = (dd[0] / known_->cut) * known_->dq_in + (dd[1] / known_->cut) * known_->dq_out;
+  // q'' = J p'' + H(p', p') with p' = d₀ in + d₁ out; H(in, out) as the mean of both.
+  if (known_->ddq_in.size() > 0)
+    out.joint.ddq += (d[0] + d[1]) * (d[0] * known_->ddq_in + d[1] * known_->ddq_out);
   return true;
 }
 
-std::optional<ReachError> GridMaker::node(double s, const JointVector& near, Node& out) const {
-  if (known_ && from_table(s, out)) {
+// The first node from the last one of the piece before, whose direction p' is λ times this one's
+// and where neither bends (p'' along p'): q' = λ q'₀, and q'' = λ² (q''₀ − μ q'₀) + ν q' where
+// p''₀ = μ p'₀ and p'' = ν p'.
+bool GridMaker::from_end_before(const JointVector& near, Node& out) const {
+  constexpr double parallel = 1e-9, straight = 1e-6;  // share; 1/mm
+  const PathPoint p = evaluate(path_.path(), 0);
+  const auto dot = [](const AxisValues& a, const AxisValues& b) {
+    double sum = 0;
+    for (std::size_t k = 0; k < a.value.size(); ++k) sum += a.value[k] * b.value[k];
+    return sum;
+  };
+  const auto none = [&dot](const AxisValues& way, double most) {
+    return dot(way, way) <= most * most;
+  };
+  const AxisValues &d0 = ends_.d_end, &dd0 = ends_.dd_end;
+  const double size0 = dot(d0, d0), size = dot(p.d, p.d);
+  if (!(size0 > 0) || !(size > 0)) return false;
+  const double lambda = dot(p.d, d0) / size0, mu = dot(dd0, d0) / size0, nu = dot(p.dd, p.d) / size;
+  if (!none(p.d - lambda * d0, parallel * std::sqrt(size)) ||
+      !none(dd0 - mu * d0, straight * size0) || !none(p.dd - nu * p.d, straight * size))
+    return false;
+  out.s = 0;
+  out.d = p.d;
+  out.dd = p.dd;
+  out.joint.q = near;
+  out.joint.dq = lambda * ends_.dq_end;
+  out.joint.ddq = lambda * lambda * (ends_.ddq_end - mu * ends_.dq_end) + nu * out.joint.dq;
+  limit(out);
+  return true;
+}
+
+std::optional<ReachError> GridMaker::node(double s, const JointVector& near, Node& out,
+                                          bool at_end) const {
+  const bool nearly = known_ && known_->ddq_in.size() > 0;
+  if (known_ && !(nearly && at_end) && from_table(s, out)) {
     out.joint.q = near;
     out.s = s;
     limit(out);
@@ -266,13 +305,17 @@ bool GridMaker::split(const Node& a, const Node& b, int depth) {
   return true;
 }
 
-std::optional<GridFailure> GridMaker::make(bool identity, const JointVector& near, bool goes_on) {
+std::optional<GridFailure> GridMaker::make(bool identity, const JointVector& near, Follows follows,
+                                           bool passes) {
   Node first, last;
-  if (goes_on) {
+  if (follows == Follows::same_curve) {
     first.joint = {ends_.q_end, ends_.dq_end, ends_.ddq_end};
     first.d = ends_.d_end;
+    first.dd = ends_.dd_end;
     limit(first);
-  } else if (const auto why = node(0, near, first)) {
+  } else if (!identity && follows == Follows::at_speed && from_end_before(near, first)) {
+    // Nothing is left to find.
+  } else if (const auto why = node(0, near, first, true)) {
     return GridFailure{0, true, why->reason};
   }
   // The end is reached over the middle, so that `near` is never a long way off.
@@ -289,10 +332,10 @@ std::optional<GridFailure> GridMaker::make(bool identity, const JointVector& nea
     last = first;
     last.s = length_;
     last.joint.q = first.joint.q + length_ * first.joint.dq;
-  } else if (const auto why = node(length_, guess, last)) {
+  } else if (const auto why = node(length_, guess, last, true)) {
     return GridFailure{0, true, why->reason};
   }
-  if (known_)
+  if (known_ && identity)
     if (auto q = path_.joints(length_, guess)) last.joint.q = std::move(*q);
   const bool uniform = is_uniform(identity, first, last);
   if (uniform && first.joint.dq.isZero(0) && last.joint.dq.isZero(0))
@@ -314,12 +357,14 @@ std::optional<GridFailure> GridMaker::make(bool identity, const JointVector& nea
   // On a bend the tip's limit leaves less the faster it is: the ramp is no straight line.
   if (const double bend = std::max(first.tip_bend, last.tip_bend); grid_.tip_rows > 0 && bend > 0)
     ramp_ = std::min(ramp_, alpha / (8 * bend));
+  const double fastest = std::sqrt(std::max(first.cap, last.cap));
+  const bool for_a_moment = length_ < moment * fastest;
   if (std::holds_alternative<Blend>(path_.path())) {
-    const double fastest = std::sqrt(std::max(first.cap, last.cap));
-    row_tolerance_ = length_ < moment * fastest ? moment_row_tolerance : blend_row_tolerance;
-    // No ride both starts and ends at rest in so short a blend: it only passes on a ramp.
-    if (length_ < moment * fastest) ramp_ = whole_ramp;
+    row_tolerance_ = for_a_moment ? moment_row_tolerance : blend_row_tolerance;
+    passes = true;
   }
+  // No ride both starts and ends at rest there: it only passes on a ramp.
+  if (passes && for_a_moment && grid_.tip_rows == 0) ramp_ = whole_ramp;
   grid_.dq_start = first.joint.dq;
   // Most pieces need no more nodes than that.
   const std::size_t few = grid_.uniform ? 2 : 3;
@@ -336,6 +381,7 @@ std::optional<GridFailure> GridMaker::make(bool identity, const JointVector& nea
   ends_.ddq_end = last.joint.ddq;
   ends_.d_start = first.d;
   ends_.d_end = last.d;
+  ends_.dd_end = last.dd;
   return std::nullopt;
 }
 
@@ -420,10 +466,11 @@ Grid grid_behind(const Grid& grid, double s) {
 std::optional<GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
                                      Metric metric, double feed, const AxisValues& tool_offset,
                                      const JointLimits& limits, const JointVector& near,
-                                     MadeGrid& out, bool goes_on, const KnownRates* known) {
+                                     MadeGrid& out, Follows follows, bool passes,
+                                     const KnownRates* known) {
   const JointPath joints(kinematics, path, tool_offset);
   return GridMaker(joints, metric, feed, limits, known, out)
-      .make(kinematics.type() == "identity", near, goes_on);
+      .make(kinematics.type() == "identity", near, follows, passes);
 }
 
 }  // namespace aircut::plan

@@ -65,7 +65,7 @@ struct GridEnds {
   machine::JointVector q_end;  ///< joints at the end of the piece
   machine::JointVector dq_end;
   machine::JointVector ddq_start, ddq_end;
-  AxisValues d_start, d_end;  ///< of the tip
+  AxisValues d_start, d_end, dd_end;  ///< of the tip
 };
 struct MadeGrid {
   Grid grid;
@@ -79,22 +79,30 @@ struct GridFailure {
   std::string reason;
 };
 
-/// What is known of a blend between two lines where the joints are linear in the tip: at the places
-/// of `rates` the curve need not be looked at.
+/// What is known of a blend between two lines where the joints are linear in the tip, or nearly so
+/// over the whole blend: at the places of `rates` the curve need not be looked at.
 struct KnownRates {
   CornerRates rates;
   double cut = 0;
   AxisValues d_in, d_out;  ///< directions of the lines, by their XYZ length
   machine::JointVector dq_in, dq_out;
+  /// q'' along the lines where the joints are only nearly linear; then the ends are looked at.
+  machine::JointVector ddq_in, ddq_out;
+};
+
+/// How a piece follows the one before it, which `out` of make_grid() still holds.
+enum class Follows {
+  nothing,     ///< or nothing is known
+  at_speed,    ///< begins where that one ends
+  same_curve,  ///< is the other part of the same curve
 };
 
 /// `near`: joints at the start. `feed` limits the tip's speed along `metric` (infinity: a rapid).
-/// Fills `out`, whose memory is used again. `goes_on`: `out` holds the piece before this one, which
-/// is the other part of the same curve.
+/// Fills `out`, whose memory is used again. `passes`: the piece neither starts nor ends at rest.
 std::optional<GridFailure> make_grid(const machine::Kinematics& kinematics, const Path& path,
                                      Metric metric, double feed, const AxisValues& tool_offset,
                                      const JointLimits& limits, const machine::JointVector& near,
-                                     MadeGrid& out, bool goes_on = false,
-                                     const KnownRates* known = nullptr);
+                                     MadeGrid& out, Follows follows = Follows::nothing,
+                                     bool passes = false, const KnownRates* known = nullptr);
 
 }  // namespace aircut::plan

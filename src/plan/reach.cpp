@@ -3,6 +3,9 @@
 // that has none and is shorter than 1e-6 of the piece is decided by the inverse at its end. Parts
 // are taken from left to right, so the first bad one is the first bad place.
 //
+// Dense programs ask for thousands of tiny parts side by side: a box that is proven is made larger
+// than the piece, and what lies inside is not asked again (ProvenBox).
+//
 // A kinematics whose bounds are never finite would need a million parts: after `budget` questions
 // the rest is looked at in 4096 places instead. (The simulator asks for bounds again and reports
 // what it can't prove, so nothing becomes "fine" by this.)
@@ -103,12 +106,54 @@ class Search {
 
 }  // namespace
 
+bool ProvenBox::holds(const machine::TipInterval& tip) const {
+  if (!known_) return false;
+  for (std::size_t k = 0; k < tip.low.value.size(); ++k)
+    if (tip.low.value[k] < box_.low.value[k] || tip.high.value[k] > box_.high.value[k] ||
+        tip.tool_offset.value[k] != box_.tool_offset.value[k])
+      return false;
+  return true;
+}
+
+bool ProvenBox::widen(const machine::Kinematics& kinematics, const machine::TipInterval& tip,
+                      std::span<double> scratch) {
+  constexpr double most = 2, per_rad = 100;
+  // Only the axes that move have room, and only small pieces are worth it.
+  machine::TipInterval box = tip;
+  double size = 0;
+  for (const Axis axis : all_axes) {
+    const double way = tip.high[axis] - tip.low[axis], unit = is_rotary(axis) ? per_rad : 1;
+    if (!(way > 0)) continue;
+    size = std::max(size, way * unit);
+    box.low[axis] -= margin_ / unit;
+    box.high[axis] += margin_ / unit;
+    box.travel[axis] = box.high[axis] - box.low[axis];
+  }
+  if (size > margin_ / 2) {
+    margin_ = std::min(2 * margin_, most);  // after a box that was not proven
+    return false;
+  }
+  if (!kinematics.travel_bound(box, scratch)) {
+    margin_ /= 2;
+    return false;
+  }
+  margin_ = std::min(2 * margin_, most);
+  box_ = std::move(box);
+  known_ = true;
+  return true;
+}
+
 std::optional<ReachLimit> find_reach_limit(const machine::Kinematics& kinematics, const Path& path,
                                            const AxisValues& tool_offset,
                                            const machine::JointVector& near,
-                                           std::span<double> scratch) {
+                                           std::span<double> scratch, ProvenBox& proven) {
   // Where each joint is an axis there is no tip without joints.
   if (kinematics.type() == "identity") return std::nullopt;
+  machine::TipInterval whole = bounds(path, 0, length(path));
+  whole.tool_offset = tool_offset;
+  if (proven.holds(whole)) return std::nullopt;
+  whole.near = near;
+  if (proven.widen(kinematics, whole, scratch)) return std::nullopt;
   return Search(kinematics, path, tool_offset, near, scratch).run();
 }
 

@@ -17,7 +17,6 @@
 #include <limits>
 
 #include "plan/corner_load.h"
-#include "plan/reach.h"
 
 namespace aircut::plan {
 namespace {
@@ -57,6 +56,7 @@ Shaper::Shaper(const machine::Machine& machine, machine::JointVector start, cons
 
 void Shaper::switch_to(const machine::Kinematics& kinematics) {
   kinematics_ = &kinematics;
+  proven_.forget();
   linear_joints_ = kinematics.type() == "identity";
 }
 
@@ -90,6 +90,7 @@ Shaper::Corner Shaper::corner_to(const Move& right) const {
         return line_load(in, out, *directions, rates, cut, feed).demand();
       };
     if (auto corner = make_blend(shape, demand)) {
+      if (directions) corner->directions = *directions;
       if (!limits_.has_jerk()) return *corner;
       const double shorter = std::min(left_length, length(right.segment.path));
       if (stop_is_faster(load(corner->blend), corner->blend, corner->cut, shorter)) return Rest{};
@@ -102,14 +103,13 @@ Shaper::Corner Shaper::corner_to(const Move& right) const {
 
 // q' on both sides of a corner between two lines, by their directions (p' at the corner); nothing
 // where the joints' directions change along a blend, so that they don't tell what it asks.
-std::optional<Shaper::Directions> Shaper::line_directions(const AxisValues& in,
-                                                          const AxisValues& out,
-                                                          const CornerShape& corner,
-                                                          const AxisValues& tool_offset) const {
+std::optional<CornerDirections> Shaper::line_directions(const AxisValues& in, const AxisValues& out,
+                                                        const CornerShape& corner,
+                                                        const AxisValues& tool_offset) const {
   const machine::Kinematics& kinematics = *kinematics_;
-  Directions to;
-  machine::JointVector none;
+  CornerDirections to;
   if (linear_joints_) {
+    machine::JointVector none;
     kinematics.rates({}, joints_, in, {}, to.in, none);
     kinematics.rates({}, joints_, out, {}, to.out, none);
     return to;
@@ -117,21 +117,56 @@ std::optional<Shaper::Directions> Shaper::line_directions(const AxisValues& in,
   if (!std::holds_alternative<Line>(corner.left) || !std::holds_alternative<Line>(corner.right))
     return std::nullopt;
   const machine::Target target{evaluate(corner.right, 0).p, tool_offset};
-  const double cut = std::min(corner.left_room, corner.right_room);
+  const auto look = [&](const AxisValues& direction, machine::JointVector& dq,
+                        machine::JointVector& bend) {
+    auto joint = joint_point(kinematics, target, direction, {}, joints_);
+    if (!joint) return false;
+    dq = std::move(joint->dq);
+    bend = std::move(joint->ddq);
+    return true;
+  };
   constexpr double little = 0.01;
-  for (const auto& [direction, dq] : {std::pair{&in, &to.in}, {&out, &to.out}}) {
-    auto joint = joint_point(kinematics, target, *direction, {}, joints_);
-    if (!joint || !(cut * joint->ddq.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff() <
-                    little * joint->dq.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff()))
-      return std::nullopt;
-    *dq = std::move(joint->dq);
-  }
+  if (!look(in, to.in, to.bend_in) || !look(out, to.out, to.bend_out)) return std::nullopt;
+  if (!(std::min(corner.left_room, corner.right_room) * turning(to) < little)) return std::nullopt;
   return to;
 }
 
+// How fast the joints' directions change along the two lines, as a share of the largest, 1/mm.
+double Shaper::turning(const CornerDirections& to) const {
+  const auto share = [this](const machine::JointVector& bend, const machine::JointVector& dq) {
+    return bend.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff() /
+           dq.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff();
+  };
+  return std::max(share(to.bend_in, to.in), share(to.bend_out, to.out));
+}
+
+// What the grid of a blend between lines need not find. Where the joints are not linear in the tip,
+// only for blends over which their directions hardly change, and bends of the joints that hardly
+// count at the feed: errors are these shares of them.
+std::optional<KnownRates> Shaper::known_rates(const Move& left, const Move& right,
+                                              const CornerBlend& corner) const {
+  const CornerDirections& to = corner.directions;
+  if (!corner.rates || to.in.size() == 0) return std::nullopt;
+  if (!linear_joints_) {
+    constexpr double little = 2e-4, hardly = 0.02;
+    const double feed = std::max(left.feed, right.feed);
+    const double bend = std::max(to.bend_in.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff(),
+                                 to.bend_out.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff());
+    if (!(corner.cut * turning(to) < little) || !(feed * feed * bend < hardly)) return std::nullopt;
+  }
+  return KnownRates{*corner.rates,
+                    corner.cut,
+                    end_direction(left.segment.path),
+                    start_direction(right.segment.path),
+                    to.in,
+                    to.out,
+                    to.bend_in,
+                    to.bend_out};
+}
+
 CornerLoad Shaper::line_load(const AxisValues& in, const AxisValues& out,
-                             const Directions& directions, const CornerRates& rates, double cut,
-                             double feed) const {
+                             const CornerDirections& directions, const CornerRates& rates,
+                             double cut, double feed) const {
   double cosine = 0;
   for (const Axis axis : {Axis::x, Axis::y, Axis::z}) cosine += in[axis] * out[axis];
   return load_of_lines(rates, cut, directions.in, directions.out, cosine, feed, limits_);
@@ -177,7 +212,8 @@ void Shaper::stop() {
 std::optional<Shaper::StraightRun> Shaper::straight_run(const Line& line,
                                                         const AxisValues& tool_offset) {
   if (failed_) return std::nullopt;
-  if (find_reach_limit(*kinematics_, line, tool_offset, joints_, scratch_)) return std::nullopt;
+  if (find_reach_limit(*kinematics_, line, tool_offset, joints_, scratch_, proven_))
+    return std::nullopt;
   if (make_grid(*kinematics_, line, metric_of(line), infinity, tool_offset, limits_, joints_,
                 made_))
     return std::nullopt;
@@ -217,6 +253,7 @@ std::optional<Shaper::StraightRun> Shaper::straight_run(const Line& line,
 void Shaper::push_planned(Segment segment, const machine::JointVector& end) {
   if (failed_) return;
   joints_ = end;
+  proven_.forget();
   at_rest_ = true;
   chain_.push_still(std::move(segment));
 }
@@ -255,27 +292,17 @@ void Shaper::add_blend(const Move& left, const Move& right, const CornerBlend& c
   in.u0 = in.u1 - part(left) * corner.cut / left_length;
   out.u1 = out.u0 + part(right) * corner.cut / length(right.segment.path);
   const double feed = left.feed;
-  std::optional<KnownRates> known;
-  if (linear_joints_ && corner.rates) {
-    known.emplace();
-    known->rates = *corner.rates;
-    known->cut = corner.cut;
-    known->d_in = end_direction(left.segment.path);
-    known->d_out = start_direction(right.segment.path);
-    machine::JointVector none;
-    kinematics_->rates({}, joints_, known->d_in, {}, known->dq_in, none);
-    kinematics_->rates({}, joints_, known->d_out, {}, known->dq_out, none);
-  }
+  const std::optional<KnownRates> known = known_rates(left, right, corner);
   end_ = left_length - corner.cut;
   std::vector<Segment> after = std::move(after_);
   after_.clear();
   finish_pending();
   if (failed_) return;
   const KnownRates* rates = known ? &*known : nullptr;
-  add(std::move(in), Metric::xyz, feed, false, rates);
+  add(std::move(in), Metric::xyz, feed, Follows::at_speed, true, rates);
   if (failed_) return;
   for (Segment& still : after) chain_.push_still(std::move(still));
-  add(std::move(out), Metric::xyz, right.feed, true, rates);
+  add(std::move(out), Metric::xyz, right.feed, Follows::same_curve, true, rates);
 }
 
 // What is left of a move between two values of its s; a chord goes out line by line.
@@ -289,7 +316,7 @@ void Shaper::add_range(Move& move, double begin, double end) {
       const double u0 = move.segment.u0, part = move.segment.u1 - u0;
       out.u0 = u0 + part * (from - low) / (high - low);
       out.u1 = u0 + part * (to - low) / (high - low);
-      add(std::move(out), move.metric, move.feed);
+      add(std::move(out), move.metric, move.feed, Follows::at_speed, from > 0 && to < whole);
     } else if (!move.parts.empty()) {
       // A line that a blend took off whole still reaches the listeners.
       out.path = Hold{evaluate(move.segment.path, std::clamp(high, begin, end)).p};
@@ -311,14 +338,13 @@ void Shaper::add_range(Move& move, double begin, double end) {
   }
 }
 
-// Gives a piece to the chain, or its good part and the failure. `goes_on`: the piece before is the
-// other part of the same curve.
-void Shaper::add(Segment&& segment, Metric metric, double feed, bool goes_on,
+// Gives a piece to the chain, or its good part and the failure.
+void Shaper::add(Segment&& segment, Metric metric, double feed, Follows follows, bool passes,
                  const KnownRates* known) {
   const machine::Kinematics& kinematics = *kinematics_;
   const double whole = length(segment.path);
-  if (const auto limit =
-          find_reach_limit(kinematics, segment.path, segment.tool_offset, joints_, scratch_)) {
+  if (const auto limit = find_reach_limit(kinematics, segment.path, segment.tool_offset, joints_,
+                                          scratch_, proven_)) {
     Failure failure{"unreachable", limit->reason,
                     segment.u0 + (segment.u1 - segment.u0) * limit->good / whole,
                     evaluate(segment.path, limit->bad).p};
@@ -329,8 +355,9 @@ void Shaper::add(Segment&& segment, Metric metric, double feed, bool goes_on,
   }
   // A piece that turns singular on the way is cut there and tried again.
   for (int tries = 0; length(segment.path) > 1e-9 * whole; ++tries) {
-    const auto problem = make_grid(kinematics, segment.path, metric, feed, segment.tool_offset,
-                                   limits_, joints_, made_, goes_on && tries == 0, known);
+    const auto problem = make_grid(
+        kinematics, segment.path, metric, feed, segment.tool_offset, limits_, joints_, made_,
+        at_rest_ || tries > 0 ? Follows::nothing : follows, passes && tries == 0, known);
     if (!problem) {
       append(std::move(segment));
       return;

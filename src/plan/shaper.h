@@ -4,6 +4,7 @@
 #include "plan/blend.h"
 #include "plan/chain.h"
 #include "plan/corner_load.h"
+#include "plan/reach.h"
 #include "plan/s_curve.h"
 
 namespace aircut::plan {
@@ -65,19 +66,19 @@ class Shaper {
 
   Corner corner_to(const Move& right) const;
   double jerk_entry(double scale) const;
-  /// q' along the two sides of a corner.
-  struct Directions {
-    machine::JointVector in, out;
-  };
-  std::optional<Directions> line_directions(const AxisValues& in, const AxisValues& out,
-                                            const CornerShape& corner,
-                                            const AxisValues& tool_offset) const;
-  CornerLoad line_load(const AxisValues& in, const AxisValues& out, const Directions& directions,
-                       const CornerRates& rates, double cut, double feed) const;
+  std::optional<CornerDirections> line_directions(const AxisValues& in, const AxisValues& out,
+                                                  const CornerShape& corner,
+                                                  const AxisValues& tool_offset) const;
+  std::optional<KnownRates> known_rates(const Move& left, const Move& right,
+                                        const CornerBlend& corner) const;
+  double turning(const CornerDirections& to) const;
+  CornerLoad line_load(const AxisValues& in, const AxisValues& out,
+                       const CornerDirections& directions, const CornerRates& rates, double cut,
+                       double feed) const;
   void finish_pending();
   void add_blend(const Move& left, const Move& right, const CornerBlend& corner);
   void add_range(Move& move, double begin, double end);
-  void add(Segment&& segment, Metric metric, double feed, bool goes_on = false,
+  void add(Segment&& segment, Metric metric, double feed, Follows follows, bool passes,
            const KnownRates* known = nullptr);
   void append(Segment&& segment);
 
@@ -95,6 +96,7 @@ class Shaper {
   AxisValues d_end_;                       ///< tip's derivative there
   bool failed_ = false;
   std::vector<double> scratch_;
+  ProvenBox proven_;
   MadeGrid made_;  ///< of the piece that is being added
 };
 
