@@ -141,27 +141,25 @@ double Shaper::turning(const CornerDirections& to) const {
 }
 
 // What the grid of a blend between lines need not find. Where the joints are not linear in the tip,
-// only for blends over which their directions hardly change, and bends of the joints that hardly
-// count at the feed: errors are these shares of them.
+// only for blends over which their directions hardly change, a share of `little`. The table takes
+// H(in, out) for the mean of H(in, in) and H(out, out), which is H(in − out, in − out) / 2 too
+// much: at the feed that may be `hardly` any of an acceleration limit.
 std::optional<KnownRates> Shaper::known_rates(const Move& left, const Move& right,
                                               const CornerBlend& corner) const {
   const CornerDirections& to = corner.directions;
   if (!corner.rates || to.in.size() == 0) return std::nullopt;
+  const AxisValues in = end_direction(left.segment.path);
+  const AxisValues out = start_direction(right.segment.path);
   if (!linear_joints_) {
-    constexpr double little = 2e-4, hardly = 0.02;
+    constexpr double little = 2e-4, hardly = 2e-3;
     const double feed = std::max(left.feed, right.feed);
     const double bend = std::max(to.bend_in.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff(),
                                  to.bend_out.cwiseQuotient(limits_.a).cwiseAbs().maxCoeff());
-    if (!(corner.cut * turning(to) < little) || !(feed * feed * bend < hardly)) return std::nullopt;
+    const double turn = mixed_norm(in - out) / std::min(mixed_norm(in), mixed_norm(out));
+    if (!(corner.cut * turning(to) < little) || !(feed * feed * bend * turn * turn < hardly))
+      return std::nullopt;
   }
-  return KnownRates{*corner.rates,
-                    corner.cut,
-                    end_direction(left.segment.path),
-                    start_direction(right.segment.path),
-                    to.in,
-                    to.out,
-                    to.bend_in,
-                    to.bend_out};
+  return KnownRates{*corner.rates, corner.cut, in, out, to.in, to.out, to.bend_in, to.bend_out};
 }
 
 CornerLoad Shaper::line_load(const AxisValues& in, const AxisValues& out,
