@@ -1,8 +1,18 @@
 #include "cli/accuracy_run.h"
 
+#include "geometry/split_edges.h"
 #include "logbook/logbook.h"
+#include "report/accuracy_map.h"
 
 namespace aircut::cli {
+
+namespace {
+
+// Of the map on the part: edges in its diagonal, and a bound for its time and size.
+constexpr double map_edges = 80;
+constexpr std::size_t most_map_triangles = 1'000'000;
+
+}  // namespace
 
 Expected<void> AccuracyRun::open(Job& job, const std::string& path) {
   const auto text = job.sources.open(path);
@@ -22,6 +32,7 @@ Expected<void> AccuracyRun::attach(sim::Simulator& simulator, const std::string&
   if (!along_) return {};
   simulator.listen_to_cuts(*along_);
   if (folder.empty()) return {};
+  along_->keep_places();
   return along_->write_to(folder + "/accuracy.csv");
 }
 
@@ -82,6 +93,24 @@ Expected<void> AccuracyRun::write(const std::string& folder, report::RunReport& 
   for (const bool over_time : {true, false})
     if (auto done = draw(folder, over_time, report); !done) return done;
   return {};
+}
+
+Expected<void> AccuracyRun::write_part(const std::string& folder,
+                                       const std::optional<TriangleMesh>& part,
+                                       std::optional<render::FrameSize> picture,
+                                       report::RunReport& report) {
+  if (!result_ || !part || part->empty() || result_->summary.stretches == 0) return {};
+  const TriangleMesh mesh =
+      with_short_edges(*part, bounds(*part).diagonal().norm() / map_edges, most_map_triangles);
+  const auto errors = along_->on_part(mesh);
+  report.outputs.push_back("accuracy-part.ply");
+  if (auto done = write_file(folder + "/accuracy-part.ply", report::error_ply(mesh, errors)); !done)
+    return done;
+  if (!picture) return {};
+  const auto image = report::error_picture(mesh, errors, *picture);
+  if (!image) return unexpected(image.error());
+  report.outputs.push_back("accuracy-part.png");
+  return write_file(folder + "/accuracy-part.png", render::png_bytes(*image));
 }
 
 }  // namespace aircut::cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli/job.h"
+#include "render/render.h"
 #include "report/accuracy_along.h"
 #include "sim/cuts.h"
 
@@ -20,6 +21,10 @@ class AccuracyRun {
   const std::vector<Diagnostic>& file_errors() const { return file_.list(); }
   /// Writes accuracy.json, accuracy.csv and the diagrams and lists them in the report.
   Expected<void> write(const std::string& folder, report::RunReport& report);
+  /// accuracy-part.ply and, with a size, accuracy-part.png: the errors on what is left of the
+  /// stock.
+  Expected<void> write_part(const std::string& folder, const std::optional<TriangleMesh>& part,
+                            std::optional<render::FrameSize> picture, report::RunReport& report);
   bool on() const { return !path_.empty(); }
 
  private:

@@ -134,9 +134,9 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
     fs::remove(folder + "/joints.csv", error);
     fs::remove(folder + "/lines.jsonl", error);
     fs::remove(folder + "/sheet.png", error);
-    for (const char* file :
-         {"report.html", "part.stl", "part.3mf", "deviation.ply", "deviation.png", "accuracy.json",
-          "accuracy.csv", "accuracy-time.png", "accuracy-path.png"})
+    for (const char* file : {"report.html", "part.stl", "part.3mf", "deviation.ply",
+                             "deviation.png", "accuracy.json", "accuracy.csv", "accuracy-time.png",
+                             "accuracy-path.png", "accuracy-part.png", "accuracy-part.ply"})
       fs::remove(folder + "/" + file, error);
     if (fs::is_directory(folder + "/frames", error))
       for (const auto& entry : fs::directory_iterator(folder + "/frames", error))
@@ -489,6 +489,14 @@ int run_command(const RunArguments& a) {
     return fail(written.error());
   if (!a.folder.empty())
     if (auto written = accuracy.write(a.folder, report); !written) return fail(written.error());
+  if (!a.folder.empty() && accuracy.on())
+    if (auto written = accuracy.write_part(
+            a.folder, simulator.part(),
+            wants_frames(a) ? std::optional(render::FrameSize{.width = a.width, .height = a.height})
+                            : std::nullopt,
+            report);
+        !written)
+      return fail(written.error());
   if (pictures && stop_signal == 0) {
     auto history = simulator.stock_history();
     if (!history) return fail(history.error());

@@ -75,6 +75,11 @@ class Along final : public sim::CutListener {
   ~Along() override;
   /// A row per stretch and contact.
   Expected<void> write_to(const std::string& path);
+  /// Keeps where each stretch went, for on_part().
+  void keep_places();
+  /// For each triangle of the part's mesh (stock's frame) the predicted error of the last cut that
+  /// made it, mm; nothing where no known cut did.
+  std::vector<std::optional<double>> on_part(const TriangleMesh& mesh) const;
 
   void on_cut(const sim::Cut& cut) override;
   /// Findings and warnings go to `out`.

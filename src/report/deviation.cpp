@@ -61,36 +61,46 @@ std::vector<std::array<std::uint8_t, 3>> DeviationScale::colors(
   return out;
 }
 
-// A body per step: the triangles whose vertices are, in the mean, in it.
-Expected<render::Image> deviation_picture(const TriangleMesh& mesh,
-                                          const std::vector<double>& outside,
-                                          const DeviationScale& scale, render::FrameSize size) {
-  constexpr std::size_t steps = DeviationScale::steps;
-  std::array<std::vector<std::array<std::uint32_t, 3>>, steps> triangles;
-  for (const auto& t : mesh.triangles)
-    triangles[static_cast<std::size_t>(
-                  scale.step_of((outside[t[0]] + outside[t[1]] + outside[t[2]]) / 3))]
-        .push_back(t);
+// A body per step.
+Expected<render::Image> map_picture(const TriangleMesh& mesh, const std::vector<int>& step_of,
+                                    const std::vector<MapColor>& steps, const std::string& title,
+                                    render::FrameSize size, const Vec3& corner) {
+  std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles(steps.size());
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    triangles[static_cast<std::size_t>(step_of[i])].push_back(mesh.triangles[i]);
   auto renderer = render::Renderer::create(size);
   if (!renderer) return unexpected(renderer.error());
   render::Scene scene;
   scene.floor = false;
-  scene.caption.left.push_back("deviation from the part, mm (below 0: into it)");
+  scene.caption.left.push_back(title);
   Box3 box;
-  for (std::size_t step = 0; step < steps; ++step) {
+  for (std::size_t step = 0; step < steps.size(); ++step) {
     if (triangles[step].empty()) continue;
     TriangleMesh part = part_of(mesh, triangles[step]);
-    const auto color = DeviationScale::color_of(static_cast<int>(step));
-    scene.caption.right.push_back(scale.text_of(static_cast<int>(step)));
+    const auto& color = steps[step].color;
+    scene.caption.right.push_back(steps[step].text);
     box.extend(bounds(part));
-    scene.bodies.push_back({.name = "deviation",
+    scene.bodies.push_back({.name = "map",
                             .mesh = std::make_shared<TriangleMesh>(std::move(part)),
                             .color = {color[0], color[1], color[2]}});
   }
-  const auto camera =
-      render::camera_by_name("iso", box, static_cast<double>(size.width) / size.height);
+  auto camera = render::camera_by_name("iso", box, static_cast<double>(size.width) / size.height);
   if (!camera) return unexpected(camera.error());
+  camera->eye = camera->target + (camera->eye - camera->target).cwiseProduct(corner);
   return renderer->draw(scene, *camera);
+}
+
+// The triangles whose vertices are, in the mean, in a step.
+Expected<render::Image> deviation_picture(const TriangleMesh& mesh,
+                                          const std::vector<double>& outside,
+                                          const DeviationScale& scale, render::FrameSize size) {
+  std::vector<MapColor> steps;
+  for (int step = 0; step < DeviationScale::steps; ++step)
+    steps.push_back({DeviationScale::color_of(step), scale.text_of(step)});
+  std::vector<int> step_of;
+  for (const auto& t : mesh.triangles)
+    step_of.push_back(scale.step_of((outside[t[0]] + outside[t[1]] + outside[t[2]]) / 3));
+  return map_picture(mesh, step_of, steps, "deviation from the part, mm (below 0: into it)", size);
 }
 
 }  // namespace aircut::report

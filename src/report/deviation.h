@@ -34,6 +34,17 @@ class DeviationScale {
 std::string ply_bytes(const TriangleMesh& mesh, std::span<const double> quality,
                       std::span<const std::array<std::uint8_t, 3>> colors);
 
+/// A colour of a map, and what it means.
+struct MapColor {
+  std::array<std::uint8_t, 3> color{};
+  std::string text;
+};
+/// The mesh with a legend, steps from the first; `step_of` has a place of `steps` for each
+/// triangle.
+Expected<render::Image> map_picture(const TriangleMesh& mesh, const std::vector<int>& step_of,
+                                    const std::vector<MapColor>& steps, const std::string& title,
+                                    render::FrameSize size, const Vec3& corner = Vec3::Ones());
+
 /// The mesh in these colours, with a legend; `outside` has a value for each vertex.
 Expected<render::Image> deviation_picture(const TriangleMesh& mesh,
                                           const std::vector<double>& outside,

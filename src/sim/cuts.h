@@ -14,6 +14,7 @@ struct Cut {
   SourceSpan span;
   std::uint64_t block = 0;
   int tool = 0;
+  int channel = 0;  ///< whose program it is
   double rpm = 0;  ///< signed, clockwise positive
   double t0 = 0, t1 = 0;
   JointVector joints;              ///< of the machine, in the middle of the stretch

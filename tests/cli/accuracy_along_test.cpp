@@ -1,6 +1,8 @@
 // `aircut run --accuracy`: the shipped examples of a lathe and a mill, against hand formulas that
 // share nothing with the program: power law times compliance, closed sums of an end mill.
 #include <cmath>
+#include <cstring>
+#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -199,6 +201,51 @@ TEST_F(AccuracyAlong, AWrongFileStopsThisStageAlone) {
   EXPECT_EQ(aircut(job + path("a.stl")).code, 0);
   EXPECT_EQ(aircut(job + path("b.stl") + " --accuracy programs/accuracy/wall.toml").code, 0);
   EXPECT_EQ(text_of(path("a.stl")), text_of(path("b.stl")));
+}
+
+// Of accuracy-part.ply: places with their errors in µm; not a number where none is predicted.
+std::vector<std::array<float, 4>> places_of(const std::string& ply) {
+  std::vector<std::array<float, 4>> out;
+  const std::size_t at = ply.find("element vertex "), begin = ply.find("end_header\n");
+  if (at == std::string::npos || begin == std::string::npos) return out;
+  out.resize(std::stoul(ply.substr(at + 15)));
+  for (std::size_t i = 0; i < out.size(); ++i)
+    std::memcpy(out[i].data(), ply.data() + begin + 11 + i * 19, 16);
+  return out;
+}
+
+TEST_F(AccuracyAlong, ThePartIsColouredByTheCutThatMadeEachPlace) {
+  EXPECT_EQ(aircut(shaft + "programs/accuracy/shaft.toml --frames at=1 -o " + path("out")).code, 0);
+  EXPECT_EQ(text_of(path("out/accuracy-part.png")).substr(1, 3), "PNG");
+  EXPECT_NE(text_of(path("out/report.html")).find("accuracy-part.png"), std::string::npos);
+  std::size_t turned = 0, known = 0, bar = 0;
+  // Half of what the size 'diameter 53' is off; the bar of 60 was not touched.
+  for (const auto& [x, y, z, error] : places_of(text_of(path("out/accuracy-part.ply")))) {
+    const double radius = std::hypot(x, y);
+    if (std::abs(radius - 26.5) < 0.02 && z > 112.5 && z < 166) {
+      ++turned;
+      if (std::isnan(error)) continue;
+      ++known;
+      EXPECT_GT(error, 7.9) << x << ' ' << y << ' ' << z;
+      EXPECT_LT(error, 8.9) << x << ' ' << y << ' ' << z;
+    } else if (std::abs(radius - 30) < 0.02 && z < 100) {
+      ++bar;
+      EXPECT_TRUE(std::isnan(error)) << z;
+    }
+  }
+  EXPECT_GT(bar, 1000);
+  EXPECT_GT(turned, 1000);
+  EXPECT_GT(known, 0.999 * static_cast<double>(turned));
+  EXPECT_EQ(aircut(wall + "programs/accuracy/wall.toml --frames none -o " + path("wall")).code, 0);
+  EXPECT_FALSE(std::filesystem::exists(path("wall/accuracy-part.png")));
+  std::size_t climbed = 0;
+  for (const auto& [x, y, z, error] : places_of(text_of(path("wall/accuracy-part.ply")))) {
+    // Y 41.9 less the radius; clear of the ends, the edges and the floor.
+    if (std::abs(y - 36.9) > 0.25 || std::abs(x) > 40 || z < 48.3 || z > 49.7) continue;
+    ++climbed;
+    EXPECT_NEAR(error, 3.4, 0.15) << x << ' ' << z;
+  }
+  EXPECT_GT(climbed, 50);
 }
 
 }  // namespace
