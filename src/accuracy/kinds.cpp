@@ -83,6 +83,13 @@ const std::vector<KindText>& kinds() {
        "without\n"
        "'milling'. Its errors are unknown, and so is the verdict. Complete [[tools]] and their\n"
        "materials."},
+      {"chatter_risk", "a cut that is deeper than its vibrations allow",
+       "Warning. With the frequency, stiffness and damping of 'mode' the cut chatters from a depth "
+       "on\n"
+       "that is told; nine tenths of it are reached here. Turned: the depth that is safe at every\n"
+       "speed (Tlusty). Milled: the limit at this speed (zeroth order), poor for widths below a "
+       "tenth\n"
+       "of the diameter. Less depth, another speed, a shorter tool or fewer teeth help."},
       {"deflection", "a tool that moves too far",
        "The tool's tip is displaced against the work by more than limits.deflection_um."},
   };

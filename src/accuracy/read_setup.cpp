@@ -180,6 +180,20 @@ Cutter read_cutter(Table& table) {
   return out;
 }
 
+std::optional<Mode> read_mode(Table& parent) {
+  auto table = parent.table("mode");
+  if (!table) return std::nullopt;
+  Mode out;
+  out.frequency = positive(*table, "frequency_Hz");
+  out.stiffness = positive(*table, "stiffness_N_um") * 1e3;
+  out.damping = positive(*table, "damping");
+  if (!(out.damping < 1))
+    range_error(*table, "damping", "'damping' is a ratio above 0 and below 1");
+  if (!(out.frequency <= 1e5))
+    range_error(*table, "frequency_Hz", "a frequency is at most 100000 Hz");
+  return out;
+}
+
 Drill read_drill(Table& table) {
   Drill out{positive(table, "D"), table.number("point_angle_deg", 118),
             table.number("chisel_factor", 1)};
@@ -216,6 +230,7 @@ void read_tools(Table& top, SetupReading& reading) {
     if (tool.nose_radius < 0) range_error(table, "nose_radius", "'nose_radius' is at least 0 mm");
     if (auto milling = table.table("milling")) tool.cutter = read_cutter(*milling);
     if (auto drill = table.table("drilling")) tool.drill = read_drill(*drill);
+    tool.mode = read_mode(table);
     tool.dt = table.number("dt", 0);
     if (tool.dt < 0) range_error(table, "dt", "an allowance is at least 0 mm");
     tool.peak = table.choice("load", {"mean", "peak"}, "mean") == "peak";
@@ -374,6 +389,7 @@ std::optional<Setup> read_setup(const SourceText& text, Diagnostics& out, const 
   reading.what_if = what_if;
   read_bodies(top, reading);
   read_materials(top, reading);
+  reading.setup.mode = read_mode(top);
   read_tools(top, reading);
   read_works(top, reading);
   read_scatter(top, reading.setup);

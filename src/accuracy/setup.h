@@ -11,6 +11,7 @@
 #include "accuracy/milling.h"
 #include "accuracy/scatter.h"
 #include "accuracy/size.h"
+#include "accuracy/stability.h"
 #include "base/base.h"
 
 namespace aircut::accuracy {
@@ -45,8 +46,9 @@ struct ToolEntry {
   double nose_radius = 0;
   std::optional<Cutter> cutter;
   std::optional<Drill> drill;
-  double dt = 0;      ///< along a program: allowance of its depth
-  bool peak = false;  ///< along a program: the largest force of a turn instead of its mean
+  double dt = 0;             ///< along a program: allowance of its depth
+  std::optional<Mode> mode;  ///< of its tip against the work; else the machine's
+  bool peak = false;         ///< along a program: the largest force of a turn instead of its mean
   SourceSpan place;
 };
 
@@ -112,6 +114,7 @@ struct Setup {
   std::vector<SourceSpan> link_places;
   std::vector<std::string> changes;  ///< what the repairs did: "body 'x', e: row z turned"
   std::map<std::string, Material> materials;
+  std::optional<Mode> mode;  ///< along a program: of the machine with any tool
   std::vector<ToolEntry> tools;
   std::vector<WorkEntry> works;
   std::vector<ContactEntry> contacts;

@@ -8,6 +8,7 @@
 // 1995.
 #include "accuracy/stability.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -48,6 +49,43 @@ std::vector<MillingLimit> milling_limits(int teeth, const Engagement& phi, doubl
     for (int q = 0; q < lobes; ++q)
       limit.rpm.push_back(60 * 2 * pi * hz / (teeth * (phase + 2 * q * pi)));
     out.push_back(limit);
+  }
+  return out;
+}
+
+// Along the frequency each solution is a curve of depth and of waves between two teeth. At the
+// given speed those frequencies chatter whose waves add a whole number to the curve's own phase:
+// they are looked for between neighbouring frequencies, on the same curve.
+std::optional<double> milling_depth_limit(int teeth, const Engagement& phi, double K_t, double K_r,
+                                          const Mode& mode, double rpm) {
+  // Steps a twentieth of the resonance's width; an octave above it the limit is far away.
+  const double step = std::min(1.0, mode.frequency * mode.damping / 20);
+  const double per_tooth = rpm * teeth / 60;  // Hz
+  std::optional<double> out;
+  std::vector<MillingLimit> before;
+  const auto waves = [&](double hz, const MillingLimit& limit) {
+    return hz / per_tooth - (pi - 2 * std::atan(limit.kappa)) / (2 * pi);
+  };
+  const int steps = static_cast<int>(std::min(2.5 * mode.frequency / step, 1e5));
+  const double first = mode.frequency / 2;
+  for (int i = 0; i <= steps; ++i) {
+    const double hz = first + i * step;
+    auto now = milling_limits(teeth, phi, K_t, K_r, mode, mode, hz, 0);
+    for (const MillingLimit& limit : now)
+      for (const MillingLimit& last : before) {
+        const double apart = std::abs(limit.eigenvalue - last.eigenvalue);
+        if (std::any_of(before.begin(), before.end(), [&](const MillingLimit& other) {
+              return std::abs(limit.eigenvalue - other.eigenvalue) < apart;
+            }))
+          continue;
+        const double a = waves(hz - step, last), b = waves(hz, limit);
+        const double whole = std::floor(std::max(a, b));
+        if (whole < 0 || whole < std::min(a, b) || std::abs(b - a) > 0.5) continue;
+        const double part = a == b ? 0 : (whole - a) / (b - a);
+        const double depth = last.depth + part * (limit.depth - last.depth);
+        out = std::min(out.value_or(depth), depth);
+      }
+    before = std::move(now);
   }
   return out;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <complex>
+#include <optional>
 #include <vector>
 
 #include "accuracy/milling.h"
@@ -16,7 +17,10 @@ struct Mode {
   std::complex<double> response(double hz) const;  ///< mm/N
 };
 
-/// Smallest limit of the chip width over all speeds, mm; `force`: N/mm² along the mode.
+/// Smallest limit of the chip width over all speeds, mm; `force`: N/mm² along the mode. The
+/// response's least real part is −1 / (4 k ζ (1 + ζ)), and the limit −1 / (2 force Re G): J.
+/// Tlusty, M. Polacek, The stability of machine tools against self-excited vibrations in machining,
+/// 1963.
 double turning_limit(const Mode& mode, double force);
 
 struct MillingLimit {
@@ -29,5 +33,9 @@ struct MillingLimit {
 /// two, those with a depth above 0. K_t N/mm², K_r its ratio of the radial to the tangential force.
 std::vector<MillingLimit> milling_limits(int teeth, const Engagement& phi, double K_t, double K_r,
                                          const Mode& x, const Mode& y, double hz, int lobes);
+/// The smallest depth a_p that chatters at a spindle speed, mm; nothing when none does. For the
+/// same mode along and across the feed.
+std::optional<double> milling_depth_limit(int teeth, const Engagement& phi, double K_t, double K_r,
+                                          const Mode& mode, double rpm);
 
 }  // namespace aircut::accuracy

@@ -3,6 +3,7 @@
 // comes of it goes to a table (rows.h), to the summaries (tally.h) and onto the part (part_map.h).
 #include <algorithm>
 
+#include "process/chatter.h"
 #include "process/part_map.h"
 #include "process/rows.h"
 #include "process/tally.h"
@@ -18,6 +19,7 @@ class Along::Impl {
         errors_before_(out.errors()),
         elastic_(setup, *machine_, remarks_, out),
         tally_(setup, remarks_),
+        chatter_(setup),
         together_([this](std::vector<sim::Cut>& cuts) { take(cuts); }) {
     usable_ = out.errors() == errors_before_;
   }
@@ -38,6 +40,7 @@ class Along::Impl {
   Tally tally_;
   Rows rows_;
   PartMap map_;
+  Chatter chatter_;
   Together together_;
   bool usable_ = false, out_of_order_ = false;
   std::vector<Engaged> engaged_;
@@ -94,6 +97,7 @@ void Along::Impl::take(std::vector<sim::Cut>& cuts) {
   for (std::size_t k = 0; k < found.size(); ++k) {
     tally_.add(engaged_[k], found[k], elastic_.sides(engaged_[k].tool));
     rows_.add(segments_, setup_, engaged_[k], found[k]);
+    chatter_.look(engaged_[k]);
     map_.add(*machine_, engaged_[k], found[k]);
   }
 }
@@ -106,6 +110,7 @@ Summary Along::Impl::finish(Diagnostics& out) {
   }
   together_.finish();
   sum = tally_.finish(out);
+  chatter_.finish(out);
   sum.time = time_;
   if (out_of_order_)
     sum.unchecked.push_back(

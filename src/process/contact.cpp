@@ -86,6 +86,14 @@ bool milled(const ToolEntry& tool, const sim::Cut& cut, CutContact& out, std::st
   out.torque = load.torque;
   out.power = load.mean_torque * rpm * 2 * pi / 60 * 1e-6;
   out.chip = thickest_chip(shape);
+  out.engaged = shape.phi;
+  if (law->is_kienzle()) {
+    out.K_t = law->kienzle.k11 * std::pow(mean_chip(shape), -law->kienzle.m);
+    out.K_r = law->radial_ratio;
+  } else if (law->constants.K_tc > 0) {
+    out.K_t = law->constants.K_tc;
+    out.K_r = law->constants.K_rc / law->constants.K_tc;
+  }
   out.S = shape.f_t * cutter.teeth;
   out.V = pi * cutter.diameter * rpm / 1000;
   out.diameter = cutter.diameter;

@@ -18,6 +18,9 @@ struct CutContact {
   double torque = 0, power = 0;  ///< of the tool's own spindle, N·mm and kW without losses
   Vec3 normal = Vec3::Zero();    ///< out of the surface that is made
   Vec3 floor = Vec3::Zero();     ///< milled: up from the floor, else zero
+  /// Milled: the engaged angles, the force per chip area, N/mm², and the ratio of its radial part.
+  std::optional<accuracy::Engagement> engaged;
+  double K_t = 0, K_r = 0;
   const accuracy::Material* material = nullptr;
 };
 

@@ -290,5 +290,27 @@ TEST(Stability, MeetsTheVectors) {
   }
 }
 
+// All lobes of a dense row of frequencies; of those that nearly meet the speed the lowest.
+TEST(Stability, TheDepthAtASpeedIsTheLowestOfAllLobes) {
+  const Mode mode{20e3, 600, 0.03};
+  for (const MillingMode way : {MillingMode::up, MillingMode::down, MillingMode::slot}) {
+    const Engagement phi = engagement(20, way == MillingMode::slot ? 20 : 8, way);
+    double least = 1e9;
+    for (const double rpm : {2300.0, 4000.0, 7100.0, 12000.0}) {
+      double lowest = 1e9;
+      for (double hz = 400; hz < 1500; hz += 0.02)
+        for (const MillingLimit& limit : milling_limits(4, phi, 700, 0.3, mode, mode, hz, 12)) {
+          least = std::min(least, limit.depth);
+          for (const double at : limit.rpm)
+            if (std::abs(at - rpm) < 5e-4 * rpm) lowest = std::min(lowest, limit.depth);
+        }
+      const auto found = milling_depth_limit(4, phi, 700, 0.3, mode, rpm);
+      ASSERT_TRUE(found);
+      EXPECT_NEAR(*found, lowest, 0.015 * lowest) << rpm;
+      EXPECT_GE(*found, 0.999 * least);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace aircut::accuracy::testing

@@ -171,6 +171,32 @@ TEST_F(AccuracyAlong, WhatIsOverALimitOrUnknownIsToldWithItsLine) {
   EXPECT_TRUE(moved.says("error[deflection]")) << moved.out;
 }
 
+TEST_F(AccuracyAlong, ACutDeeperThanItsVibrationsAllowIsWarnedOf) {
+  const auto mode = [&](const std::string& file, double stiffness) {
+    return with(file, "version = 1\n",
+                "version = 1\nmode = { frequency_Hz = 400, stiffness_N_um = " +
+                    std::to_string(stiffness) + ", damping = 0.03 }\n");
+  };
+  // 2 k ζ (1 + ζ) / K is the chip's width, K the force per chip area at S = 0.24 and the bar of 60
+  // mm.
+  const double K = 3000 * std::pow(0.24, -0.25) * std::pow(M_PI * 54, -0.15);
+  const double width = 2 * 20e3 * 0.03 * 1.03 / K;
+  char depth[32];
+  std::snprintf(depth, sizeof depth, "from %.2f mm on", width * std::sin(95 * M_PI / 180));
+  const Outcome soft = aircut(shaft + mode("shaft.toml", 20));
+  EXPECT_EQ(soft.code, 0) << soft.out;
+  EXPECT_TRUE(soft.says("warning[chatter_risk]: T1 cuts 2.00 mm deep")) << soft.out;
+  EXPECT_TRUE(soft.says(depth)) << depth << soft.out;
+  EXPECT_TRUE(soft.says("shaft.ngc:16:1")) << soft.out;
+  EXPECT_FALSE(aircut(shaft + mode("shaft.toml", 2000)).says("chatter_risk"));
+  EXPECT_TRUE(aircut(wall + mode("wall.toml", 0.1)).says("warning[chatter_risk]: T1 cuts 2"));
+  EXPECT_FALSE(aircut(wall + mode("wall.toml", 2000)).says("chatter_risk"));
+  const Outcome wrong = aircut(
+      shaft + with("shaft.toml", "version = 1\n", "version = 1\nmode = { frequency_Hz = 400 }\n"));
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_TRUE(wrong.says("stiffness_N_um")) << wrong.out << wrong.err;
+}
+
 TEST_F(AccuracyAlong, ADepthThatIsNotAtRestIsTold) {
   // The tool is pushed out, and a joint that answers the wrong way round pulls it in.
   std::string text = shipped("shaft.toml");
