@@ -43,19 +43,34 @@ std::string hash_of_package(const std::string& folder) {
   return sha256(all);
 }
 
-// The surface of what an earlier job left, for the stock of a setup.
-bool load_stock(machine::SetupStock& wanted, Job& job) {
-  if (wanted.raw.shape != machine::StockShape::saved) return true;
-  const std::string_view bytes = wanted.raw.saved->content();
-  const auto stock = stock::Stock::load(bytes, printable(wanted.mesh_path));
-  if (!stock) {
-    job.diagnostics.error("setup_invalid", wanted.mesh_span, stock.error().message);
+constexpr double turned_facets = 0.005;  // mm, of the surface of a saved bar
+
+// The surface of what an earlier job left, for the stock of a setup, and its sizes.
+bool load_stock(machine::SetupStock& wanted, bool turned, Job& job) {
+  machine::RawStock& raw = wanted.raw;
+  if (raw.shape != machine::StockShape::saved) return true;
+  const std::string_view bytes = raw.saved->content();
+  const std::string name = printable(wanted.mesh_path);
+  const auto use = [&](const auto& stock, const auto& surface) {
+    if (!stock) {
+      job.diagnostics.error("setup_invalid", wanted.mesh_span, stock.error().message);
+      return false;
+    }
+    job.inputs.push_back({"stock", raw.saved->name(), sha256(bytes)});
+    raw.pitch = stock->pitch();
+    raw.mesh = std::make_shared<TriangleMesh>(surface(*stock));
+    if (!raw.mesh->triangles.empty()) return true;
+    job.diagnostics.error("setup_invalid", wanted.mesh_span,
+                          "nothing is left of the stock in '" + name + "'");
     return false;
-  }
-  job.inputs.push_back({"stock", wanted.raw.saved->name(), sha256(bytes)});
-  wanted.raw.pitch = stock->pitch();
-  wanted.raw.mesh = std::make_shared<TriangleMesh>(stock->mesh());
-  return true;
+  };
+  if (!turned)
+    return use(stock::Stock::load(bytes, name), [](const auto& stock) { return stock.mesh(); });
+  return use(stock::TurnedStock::load(bytes, name), [&](const stock::TurnedStock& stock) {
+    raw.diameter = 2 * stock.radius();
+    raw.height = stock.length();
+    return stock.mesh(turned_facets);
+  });
 }
 
 // Sets the work offsets of a setup as the parameters that a control keeps them in.
@@ -127,7 +142,8 @@ bool open_inputs(Job& job, const ProgramArguments& arguments, std::optional<doub
   if (!arguments.setup.empty() && job.machine) {
     auto setup = machine::read_setup(arguments.setup, *job.machine, job.sources, out);
     if (!setup) return fail(setup.error());
-    if (setup->stock && !load_stock(*setup->stock, job)) return false;
+    if (setup->stock && !load_stock(*setup->stock, sim::turns_the_work(*job.machine), job))
+      return false;
     const auto placed = machine::apply_setup(*job.machine, *setup, job.sources, out);
     if (!placed) return fail(placed.error());
     job.machine = *placed;

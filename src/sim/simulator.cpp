@@ -44,6 +44,7 @@ std::optional<TriangleMesh> Simulator::part() const {
 }
 
 std::optional<std::string> Simulator::saved_stock() const {
+  if (turning_ && turning_->stock()) return turning_->stock()->save();
   if (!cutting_ || !cutting_->stock()) return std::nullopt;
   return cutting_->stock()->save();
 }

@@ -347,6 +347,10 @@ class TurnedStock {
   static Expected<TurnedStock> make(double radius, double bore, double length, double pitch,
                                     const StockOptions& options = {});
 
+  /// A stock from save(); as Stock::load.
+  static Expected<TurnedStock> load(std::string_view bytes, const std::string& name,
+                                    const StockOptions& options = {});
+
   /// Takes away what the move sweeps while the stock turns; the volume taken, mm³.
   double cut(const TurningMove& move);
   TurningTouch touch(const TurningMove& move) const;
@@ -355,6 +359,8 @@ class TurnedStock {
                     const std::function<void(const TurningStretch&)>& see) const;
 
   double pitch() const { return pitch_; }
+  double radius() const { return radius_; }  ///< of the initial bar, mm
+  double length() const { return length_; }
   double volume() const;  ///< mm³
   std::size_t bytes() const;
   /// Material on the ray at the height nearest to z (at the radius nearest to r), mm.
@@ -367,6 +373,8 @@ class TurnedStock {
   std::vector<std::vector<std::pair<double, double>>> outlines() const;
   /// The surface as a closed mesh; circles are polygons at most `facets` mm inside of them.
   TriangleMesh mesh(double facets) const;
+  /// The bytes of a file from which load() makes the same stock, bit for bit.
+  std::string save() const;
   std::string hash() const;
 
  private:
@@ -377,7 +385,7 @@ class TurnedStock {
   template <class See>
   void each_chord(const TurningMove& move, See see) const;
 
-  double pitch_ = 0;
+  double pitch_ = 0, radius_ = 0, length_ = 0;
   std::vector<Ray> along_r_;  ///< at z = (k + ½) pitch
   std::vector<Ray> along_z_;  ///< at r = (i + ½) pitch
 };

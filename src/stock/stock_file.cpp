@@ -8,36 +8,21 @@
 // of both ends (16 bits each). The file ends with the SHA-256 of all that precedes, as 64 digits.
 // What is read is checked: nothing that could not have been written becomes a stock.
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
+#include "stock/file_bytes.h"
 #include "stock/impl.h"
 
 namespace aircut::stock {
 namespace {
 
-constexpr std::string_view heading = "aircut stock 1\n";
-constexpr std::size_t digits = 64;
-
-class Writer {
+class Writer : public FileWriter {
  public:
-  void bytes(std::string_view text) { out_ += text; }
-  template <class Int>
-  void number(Int value) {
-    for (std::size_t i = 0; i < sizeof(Int); ++i)
-      out_ += static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i) & 255);
-  }
-  void real(double value) { number(std::bit_cast<std::uint64_t>(value)); }
+  using FileWriter::FileWriter;
 
   void brick(const Brick& brick) {
     number(std::uint8_t{2});
     for (const RayFamily& f : brick.family) family(f);
-  }
-
-  std::string finish() {
-    out_ += sha256(out_);
-    return std::move(out_);
   }
 
  private:
@@ -56,47 +41,18 @@ class Writer {
     }
   }
 
-  std::string out_;
   std::vector<Interval> intervals_;
 };
 
-/// Reads numbers until something is wrong; then all that follows is 0.
-class Reader {
+class Reader : public FileReader {
  public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
-
-  template <class Int>
-  Int number() {
-    if (bytes_.size() - at_ < sizeof(Int)) {
-      wrong("it ends too early");
-      return 0;
-    }
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < sizeof(Int); ++i)
-      value |= std::uint64_t{static_cast<unsigned char>(bytes_[at_ + i])} << (8 * i);
-    at_ += sizeof(Int);
-    return static_cast<Int>(value);
-  }
-  double real() { return std::bit_cast<double>(number<std::uint64_t>()); }
+  using FileReader::FileReader;
 
   std::unique_ptr<Brick> brick() {
     auto out = std::make_unique<Brick>();
     for (RayFamily& f : out->family) family(f);
     settle(*out);
     return out;
-  }
-
-  void wrong(const char* what) {
-    if (good()) {
-      what_ = what;
-      where_ = at_;
-    }
-    at_ = bytes_.size();
-  }
-  bool good() const { return what_ == nullptr; }
-  bool at_end() const { return at_ == bytes_.size(); }
-  std::string message() const {
-    return std::string(what_) + " (at byte " + std::to_string(where_) + ")";
   }
 
  private:
@@ -122,10 +78,6 @@ class Reader {
       }
     }
   }
-
-  std::string_view bytes_;
-  std::size_t at_ = 0, where_ = 0;
-  const char* what_ = nullptr;
 };
 
 /// Reads the lattice; false when it makes no sense.
@@ -184,8 +136,7 @@ void read_bricks(Reader& in, Stock::Impl& impl) {
 
 std::string Stock::save() const {
   const Lattice& lattice = impl_->lattice;
-  Writer out;
-  out.bytes(heading);
+  Writer out(milled_heading);
   out.real(lattice.pitch);
   for (int a = 0; a < 3; ++a) out.real(lattice.origin[a]);
   for (const Vec3& corner : {impl_->box.min(), impl_->box.max()})
@@ -219,23 +170,15 @@ std::string Stock::save() const {
 
 Expected<Stock> Stock::load(std::string_view bytes, const std::string& name,
                             const StockOptions& options) {
-  const auto refuse = [&](const std::string& why) {
-    return unexpected(
-        make_error("stock_file", "'" + name + "' is no stock that can be used: " + why));
-  };
-  if (bytes.substr(0, heading.size()) != heading)
-    return refuse("it does not begin with 'aircut stock 1'");
-  if (bytes.size() < heading.size() + digits) return refuse("it ends too early");
-  const std::string_view content = bytes.substr(0, bytes.size() - digits);
-  if (sha256(content) != bytes.substr(content.size()))
-    return refuse("its check sum is wrong: it was changed, or not written to its end");
+  const auto content = file_content(bytes, milled_heading, name);
+  if (!content) return unexpected(content.error());
   auto impl = std::make_unique<Impl>();
   impl->options = options;
   impl->solid = MeshSolid{};  // all of it is in the rays
-  Reader in(content.substr(heading.size()));
+  Reader in(*content);
   if (read_lattice(in, *impl)) read_bricks(in, *impl);
   if (in.good() && !in.at_end()) in.wrong("it goes on after its last brick");
-  if (!in.good()) return refuse(in.message());
+  if (!in.good()) return unexpected(file_error(name, in.message()));
   return Stock(std::move(impl));
 }
 

@@ -177,6 +177,8 @@ Expected<TurnedStock> TurnedStock::make(double radius, double bore, double lengt
             " mm"));
   TurnedStock out;
   out.pitch_ = pitch;
+  out.radius_ = radius;
+  out.length_ = length;
   const auto count = [&](double size) {
     return static_cast<std::size_t>(std::ceil(size / pitch - 1e-9));
   };

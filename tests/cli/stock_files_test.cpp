@@ -83,15 +83,42 @@ TEST_F(StockFiles, NeedAStockThatIsKnown) {
     EXPECT_EQ(none.code, 2) << none.out;
     EXPECT_TRUE(none.says("needs a stock")) << none.err;
   }
-  // That of a lathe can't be saved.
-  put("bar.ngc", "G18 G21 G90\nG53 G0 X190\nM2\n");
-  put("bar.toml", "schema = 1\n[stock]\ncylinder = [20.0, 30.0]\n");
-  const Outcome bar =
-      aircut("run " + path("bar.ngc") + " -m lathe-slant --setup " + path("bar.toml") +
-             " --check limits,cut --log null --save-stock " + path("bar.stock"));
-  EXPECT_EQ(bar.code, 2) << bar.out << bar.err;
-  EXPECT_TRUE(bar.says("--save-stock")) << bar.out << bar.err;
-  EXPECT_TRUE(text_of(path("bar.stock")).empty());
+}
+
+TEST_F(StockFiles, GoOnOnALatheAndNotOnAMillOrTheOtherWayRound) {
+  const std::string begin =
+      "G18 G21 G40 G49 G54 G80 G90 G94 G61\nT1 M6\nS900 M3\nG43 H1\nG0 X34 Z5\n";
+  const std::string face = "G0 Z0\nG1 X-0.5 F150\nG0 X34 Z2\n",
+                    turn = "G0 X26 Z2\nG1 Z-20 F250\nG1 X34\n";
+  const std::string end = "G0 X34\nG53 G0 X200\nG53 G0 Z0\nM5\nM2\n";
+  put("face.ngc", begin + face + end);
+  put("turn.ngc", begin + turn + end);
+  put("both.ngc", begin + face + turn + end);
+  const std::string place = "place = [0.0, 0.0, -670.0]\nreplaces = \"work\"\n";
+  put("bar.toml", "schema = 1\n[stock]\ncylinder = [60.0, 169.0]\npitch = 0.2\n" + place);
+  put("next.toml", "schema = 1\n[stock]\nfile = \"bar.stock\"\n" + place);
+  const auto on_lathe = [&](const std::string& name, const std::string& setup,
+                            const std::string& more) {
+    return aircut("run " + path(name) + " -m lathe-slant --setup " + path(setup) +
+                  " --check limits,cut --log null " + more);
+  };
+  const Outcome first = on_lathe("face.ngc", "bar.toml", "--save-stock " + path("bar.stock"));
+  EXPECT_EQ(first.code, 0) << first.err << first.out;
+  const Outcome next = on_lathe("turn.ngc", "next.toml", "--frames count=1 -o " + path("next"));
+  EXPECT_EQ(next.code, 0) << next.err << next.out;
+  EXPECT_EQ(on_lathe("both.ngc", "bar.toml", "--frames none -o " + path("both")).code, 0);
+  EXPECT_EQ(text_of(path("next/part.stl")), text_of(path("both/part.stl")));
+  EXPECT_FALSE(text_of(path("next/part.stl")).empty());
+  const Outcome milled = run("face.ngc", "next.toml", "");
+  EXPECT_EQ(milled.code, 2);
+  EXPECT_TRUE(milled.says("next.toml:3")) << milled.err;
+  EXPECT_TRUE(milled.says("saved on a machine whose spindle turns the work")) << milled.err;
+  put("one.ngc", program(slot(10)));
+  put("raw.toml", block + raw);
+  EXPECT_EQ(run("one.ngc", "raw.toml", "--force --save-stock " + path("bar.stock")).code, 0);
+  const Outcome turned = on_lathe("turn.ngc", "next.toml", "");
+  EXPECT_EQ(turned.code, 2);
+  EXPECT_TRUE(turned.says("a lathe needs a stock that was saved on a lathe")) << turned.err;
 }
 
 TEST_F(StockFiles, WritesOnePartWhereItIsWanted) {

@@ -131,6 +131,56 @@ TEST(TurnedStock, FollowsACoarserLatticeLessExactly) {
   }
 }
 
+TEST(TurnedStock, SavedStockIsReadAsTheSameAndCutsOnAlike) {
+  TurnedStock stock = bar(9);
+  stock.cut({&rounded, 15, 66, 15, 20});
+  stock.cut({&grooving, 12, 30, 30, 30});
+  const std::string bytes = stock.save();
+  auto again = TurnedStock::load(bytes, "bar.stock");
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->save(), bytes);
+  EXPECT_EQ(again->hash(), stock.hash());
+  EXPECT_EQ(again->radius(), 20);
+  EXPECT_EQ(again->length(), 60);
+  EXPECT_EQ(stock.cut({&boring, 10, 20, 10, 10}), again->cut({&boring, 10, 20, 10, 10}));
+  EXPECT_EQ(again->hash(), stock.hash());
+  EXPECT_EQ(again->volume(), stock.volume());
+}
+
+TEST(TurnedStock, SpoiltFilesAndMilledStocksAreRefused) {
+  const std::string good = bar().save();
+  constexpr std::size_t heading = 22, pitch = 8;
+  const auto refused = [](std::string bytes, const char* why, bool mend = false) {
+    if (mend) bytes.replace(bytes.size() - 64, 64, sha256(bytes.substr(0, bytes.size() - 64)));
+    const auto stock = TurnedStock::load(bytes, "a.stock");
+    ASSERT_FALSE(stock) << why;
+    EXPECT_EQ(stock.error().kind, "stock_file");
+    EXPECT_NE(stock.error().message.find(why), std::string::npos) << stock.error().message;
+  };
+  refused("", "does not begin with 'aircut turned stock 1'");
+  refused(good.substr(0, 50), "too early");
+  refused(good.substr(0, good.size() - 1), "check sum");
+  std::string changed = good;
+  changed[100] = static_cast<char>(changed[100] ^ 1);
+  refused(changed, "check sum");
+  refused(good.substr(0, good.size() - 80) + good.substr(good.size() - 64), "too early", true);
+  refused(good.substr(0, good.size() - 64) + "more" + good.substr(good.size() - 64), "goes on",
+          true);
+  changed = good;
+  changed.replace(heading, pitch, pitch, '\0');
+  refused(changed, "pitch must be", true);
+  changed = good;
+  changed[heading + 3 * 8 + 4 + 15] = 1;  // the high byte of where the first ray ends
+  refused(changed, "outside of the bar (at byte", true);
+  const auto milled = Stock::make(Box{Vec3::Zero(), Vec3::Constant(10)}, 1);
+  ASSERT_TRUE(milled);
+  refused(milled->save(), "whose spindle turns the tool");
+  const auto turned = Stock::load(good, "a.stock");
+  ASSERT_FALSE(turned);
+  EXPECT_EQ(turned.error().kind, "stock_file");
+  EXPECT_NE(turned.error().message.find("whose spindle turns the work"), std::string::npos);
+}
+
 TEST(TurnedStock, RefusesWhatIsNoBar) {
   EXPECT_EQ(TurnedStock::make(20, 20, 60, h).error().kind, "stock_shape");
   EXPECT_EQ(TurnedStock::make(20, 0, 60, 100).error().kind, "stock_shape");

@@ -142,8 +142,7 @@ Expected<std::unique_ptr<StockHistory>> TurningCheck::history() {
   std::FILE* file = tape_->file().get();
   if (std::fflush(file) != 0 || std::fseek(file, 0, SEEK_SET) != 0)
     return unexpected(disk_error("can't read a temporary file"));
-  auto raw =
-      stock::TurnedStock::make(raw_->diameter / 2, raw_->bore / 2, raw_->height, stock_->pitch());
+  auto raw = initial(stock_->pitch());
   if (!raw) return unexpected(raw.error());
   return std::make_unique<TurningPlayer>(tape_->file(), tape_->sections(), std::move(*raw));
 }
@@ -162,8 +161,13 @@ std::optional<TriangleMesh> TurningCheck::part() const {
   return stock()->mesh(facets);
 }
 
+Expected<stock::TurnedStock> TurningCheck::initial(double pitch) const {
+  if (raw_->saved) return stock::TurnedStock::load(raw_->saved->content(), raw_->saved->name());
+  return stock::TurnedStock::make(raw_->diameter / 2, raw_->bore / 2, raw_->height, pitch);
+}
+
 std::string TurningCheck::read_frame(const machine::Machine& machine) {
-  if (raw_->shape != machine::StockShape::cylinder)
+  if (raw_->shape != machine::StockShape::cylinder && !raw_->saved)
     return "on a machine whose spindle turns the work the stock must be a cylinder or a tube";
   const Pose X_SM = raw_->X_LS.inverse(Eigen::Isometry) * machine.X_LM();
   const Vec3 axis = X_SM.linear() * Vec3::UnitZ(), origin = X_SM.translation();
@@ -180,7 +184,7 @@ void TurningCheck::start(const Scene& scene, const JointVector& joints, Findings
   if (!raw_) return;
   if (auto why = read_frame(scene.machine()); !why.empty()) return give_up(why);
   const double pitch = raw_->pitch.value_or(default_pitch(*raw_) / finer);
-  auto made = stock::TurnedStock::make(raw_->diameter / 2, raw_->bore / 2, raw_->height, pitch);
+  auto made = initial(pitch);
   if (!made) return give_up(made.error().message);
   stock_ = std::move(*made);
   initial_volume_ = stock_->volume();

@@ -52,6 +52,8 @@ class TurningCheck final : public Check {
     std::vector<tool::Block> blocks = {};
     double wider = 0;  ///< mm, of the blocks on all sides
   };
+  /// The stock as it came to the machine; one that was saved has its own lattice.
+  Expected<stock::TurnedStock> initial(double pitch) const;
   /// Why the set-up or the tool can't be turned with; empty: it can.
   std::string read_frame(const machine::Machine& machine);
   std::string read_tool(const Scene& scene, const Vec3& axis);
