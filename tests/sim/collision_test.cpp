@@ -69,6 +69,21 @@ TEST_F(Collision, TellsANearMissWithItsDistance) {
   EXPECT_EQ(r.verdict, Verdict::pass);
 }
 
+TEST_F(Collision, TellsBodiesThatStandNearThoughNothingMoves) {
+  // The post's right face is at X 5, the plate at X 50.
+  const RunResult r = run("G21 G90\nG4 P1\nM2\n", {.near = 46});
+  const Finding& f = r.only(Kind::near_miss);
+  EXPECT_NEAR(*f.value, 45, 1e-9);
+  EXPECT_EQ(f.body_a, "post");
+  EXPECT_EQ(f.body_b, "plate");
+  EXPECT_NEAR(f.points.at(0).x(), 5, 1e-9);
+  EXPECT_NE(f.message.find("stands 45.000 mm from"), std::string::npos) << f.message;
+  EXPECT_TRUE(run("G21 G90\nG4 P1\nM2\n", {.near = 45}).findings.empty());
+  // Where it moves after that, the motion tells it, and nothing is told twice.
+  const RunResult moved = run("G21 G90\nG4 P1\nG0 X-0.5\nG4 P1\nM2\n", {.near = 46});
+  EXPECT_EQ(moved.only(Kind::near_miss).message.find("stands"), std::string::npos);
+}
+
 TEST_F(Collision, SaysNothingBeyondTheMargin) {
   const RunResult r = run("G21 G90 G61\nG0 Z52.1\nG0 X150\nM2\n");
   EXPECT_TRUE(r.findings.empty());

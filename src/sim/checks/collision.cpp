@@ -62,6 +62,7 @@ class CollisionCheck final : public Check {
     choose_pairs(step.scene);
     LinkPoses poses;
     machine::forward(step.scene.machine(), joints, poses);
+    std::erase_if(near_at_rest_, [](const NearAtRest& near) { return near.tool; });
     check_at_rest(step, poses, Kind::tool_change_collision, out);
   }
 
@@ -74,12 +75,14 @@ class CollisionCheck final : public Check {
     }
     if (step.segment.duration() <= 0 || std::holds_alternative<plan::Hold>(step.segment.path))
       return;
+    near_at_rest_.clear();  // the motion begins there
     PoseCache cache(step.scene.machine(), step.motion);
     for (Pair& pair : pairs_)
       if (!pair.left_out) check_pair(step, pair, cache, out);
   }
 
-  void finish(Summary& summary, Findings&) override {
+  void finish(Summary& summary, Findings& out) override {
+    for (NearAtRest& near : near_at_rest_) out.add(std::move(near.row));
     summary.collision.pairs = most_pairs_;
     summary.collision.bodies = most_bodies_;
     summary.collision.distance_queries = cost_.distance_queries;
@@ -112,10 +115,13 @@ class CollisionCheck final : public Check {
       if (pair.left_out || (kind == Kind::tool_change_collision && !is_tool(a.body.role))) continue;
       const Pose X_WA = mesh_pose(a.body, poses), X_WB = mesh_pose(b.body, poses);
       ++cost_.overlap_queries;
-      if (!collide::overlap(*a.collision, X_WA, *b.collision, X_WB)) continue;
-      const auto depth =
-          collide::penetration(*a.collision, X_WA, *b.collision, X_WB, {}, options_.touch);
-      if (depth.depth <= options_.touch) continue;
+      collide::Penetration depth;
+      if (collide::overlap(*a.collision, X_WA, *b.collision, X_WB))
+        depth = collide::penetration(*a.collision, X_WA, *b.collision, X_WB, {}, options_.touch);
+      if (depth.depth <= options_.touch) {
+        look_near(step, a, X_WA, b, X_WB);
+        continue;
+      }
       Finding f =
           finding_at(kind, step, kind == Kind::self_overlap ? step.motion.t0() : step.motion.t1());
       name_pair(f, a.body, b.body);
@@ -138,6 +144,21 @@ class CollisionCheck final : public Check {
       }
       out.add(f);
     }
+  }
+
+  // What passes near is found by the motion; where none follows, the pose is all there is.
+  void look_near(const Step& step, const SceneBody& a, const Pose& X_WA, const SceneBody& b,
+                 const Pose& X_WB) {
+    if (options_.near <= 0) return;
+    ++cost_.distance_queries;
+    const auto gap = collide::distance(*a.collision, X_WA, *b.collision, X_WB, options_.near);
+    if (gap.capped || gap.value >= options_.near) return;
+    Finding f = near_row(step, a.body, b.body, step.motion.t1(), gap.value);
+    f.message = in_words(a.body) + " stands " + fixed(gap.value, 3) + " mm from " +
+                in_words(b.body) + ", and nothing moves any more";
+    f.depth_bound = 0;
+    f.points = {gap.on_a, gap.on_b};
+    near_at_rest_.push_back({std::move(f), is_tool(a.body.role) || is_tool(b.body.role)});
   }
 
   void check_pair(const Step& step, Pair& pair, PoseCache& cache, Findings& out) {
@@ -264,19 +285,24 @@ class CollisionCheck final : public Check {
     out.add(f);
   }
 
+  Finding near_row(const Step& step, const Body& a, const Body& b, double t, double gap) const {
+    Finding f = finding_at(Kind::near_miss, step, t);
+    name_pair(f, a, b);
+    f.depth = -gap;
+    f.value = gap;
+    f.limit = options_.near;
+    f.unit = "mm";
+    return f;
+  }
+
   void report_near(const Step& step, const Body& a, const Body& b, const collide::Near& near,
                    PoseCache& cache, Findings& out) const {
     if (options_.near <= 0 || near.distance_low >= options_.near) return;
-    Finding f = finding_at(Kind::near_miss, step, near.t);
-    name_pair(f, a, b);
+    Finding f = near_row(step, a, b, near.t, near.distance_low);
     f.message = in_words(a) + " passes " + in_words(b) + " at " + fixed(near.distance_low, 3) +
                 " mm " + during(step.segment);
     f.u_first = f.u_end = fraction_at(step, near.t);
-    f.depth = -near.distance_low;
     f.depth_bound = near.distance_high - near.distance_low;
-    f.value = near.distance_low;
-    f.limit = options_.near;
-    f.unit = "mm";
     if (const LinkPoses* poses = cache.at(near.t)) {
       const Pose X_WA = mesh_pose(a, *poses);
       f.points = {X_WA * near.on_a, X_WA * near.on_b};
@@ -305,6 +331,11 @@ class CollisionCheck final : public Check {
   std::optional<machine::MotionBound> bound_;
   JointVector start_joints_;
   bool pending_start_ = false;
+  struct NearAtRest {
+    Finding row;
+    bool tool = false;  ///< of the tool that is in the spindle
+  };
+  std::vector<NearAtRest> near_at_rest_;  ///< where the machine stands and has not moved since
   std::vector<Pair> pairs_;
   std::vector<std::string> exclusions_;
   std::size_t most_pairs_ = 0, most_bodies_ = 0, detailed_ = 0;
