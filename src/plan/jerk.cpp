@@ -28,8 +28,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int most_meshes = 3;
-constexpr int most_repairs = 12;
-constexpr int first_slower_repair = 4;
+constexpr int most_repairs = 16;
+constexpr int first_slower_repair = 7;
 
 }  // namespace
 

@@ -92,8 +92,8 @@ void trim_around(const std::vector<Excess>& excess, const JerkWindow& w, const N
     }
     while (low + 1 < law.node_time.size() && law.node_time[low] < e.t - reach) ++low;
     for (std::size_t k = low; k < trim.jerk.size() && law.node_time[k] <= e.t + reach; ++k) {
-      trim.jerk[k] = std::min(trim.jerk[k], std::max(0.95 / e.share, 0.5) * before.jerk[k]);
-      if (slower) trim.speed[k] = std::min(trim.speed[k], 0.85 * before.speed[k]);
+      trim.jerk[k] = std::min(trim.jerk[k], std::max(0.98 / e.share, 0.5) * before.jerk[k]);
+      if (slower) trim.speed[k] = std::min(trim.speed[k], 0.95 * before.speed[k]);
     }
   }
 }

@@ -107,7 +107,8 @@ TEST(JerkLimit, ReversingAPathTakesTheSameTime) {
   const double a = 60.0 / 10;
   start = xyz(20 * std::sin(a), 10 * std::sin(1.7 * a), 3 * std::sin(3 * a));
   const Planned planned = plan_program(*machine, joints_at(*machine, start), back);
-  EXPECT_NEAR(planned.time(), forth, 2e-3 * forth);
+  // The log's samples lie elsewhere on the way back, so other places are repaired.
+  EXPECT_NEAR(planned.time(), forth, 5e-4 * forth);
 }
 
 // Feed and speed k times as large, acceleration k² and jerk k³ times, the period divided by k.
@@ -183,11 +184,12 @@ TEST(Trap, TheDirectionOfAPathCountsNoMoreThanTheLimitsSay) {
 TEST(JerkLimit, MoreOfAnyLimitIsHardlySlower) {
   const auto base = jerky();
   const double t = wave_time(*base, wave(60, 1));
-  for (int j = 0; j < 3; ++j) {
-    const auto faster = jerky();
-    faster->tree_[static_cast<std::size_t>(j)].jmax *= 2;
-    EXPECT_LE(wave_time(*faster, wave(60, 1)), t * 1.003) << j;
-  }
+  for (const double factor : {1.05, 1.3, 2.0})
+    for (int j = 0; j < 3; ++j) {
+      const auto faster = jerky();
+      faster->tree_[static_cast<std::size_t>(j)].jmax *= factor;
+      EXPECT_LE(wave_time(*faster, wave(60, 1)), t * 1.001) << j << ' ' << factor;
+    }
   EXPECT_GT(t, wave_time(*mill(), wave(60, 1))) << "a jerk limit costs time";
 }
 

@@ -269,7 +269,7 @@ TEST(Invariance, ReversingAPathTakesTheSameTime) {
   for (std::size_t i = 1; i < points.size(); ++i) there.line(points[i]);
   for (std::size_t i = points.size() - 1; i-- > 0;) back.line(points[i]);
   const double t = time_of(*machine, there);
-  EXPECT_NEAR(time_of(*machine, back, points.back()), t, 2e-3 * t);
+  EXPECT_NEAR(time_of(*machine, back, points.back()), t, 1e-4 * t);
 }
 
 TEST(Invariance, ScalingSpeedsDividesTheTime) {
