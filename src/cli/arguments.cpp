@@ -6,6 +6,7 @@
 
 #include "cli/accuracy_arguments.h"
 #include "cli/exit_code.h"
+#include "cli/job_arguments.h"
 #include "cli/log_arguments.h"
 #include "cli/usage.h"
 
@@ -171,6 +172,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   app.fallthrough(false);
 
   RunArguments run;
+  JobArguments job;
   CheckArguments check;
   TraceArguments trace;
   MachineArguments machine;
@@ -264,6 +266,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
   add_when(c_run, "--progress", run.output.progress, "progress line on stderr");
   add_output(c_run, run.output, fail_on);
 
+  CLI::App* c_job = add_job(app, job);
   CLI::App* c_check =
       app.add_subcommand("check",
                          "fast gate: interpret programs and report errors, no motion\n\n"
@@ -544,6 +547,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
     std::tie(run.width, run.height) = *pixels;
     return Arguments(run);
   }
+  if (c_job->parsed()) return Arguments(job);
   if (c_check->parsed()) {
     check.program.set = *sets;
     check.output.fail_on = severity_of(fail_on);

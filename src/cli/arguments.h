@@ -72,6 +72,14 @@ struct RunArguments {
   std::optional<double> max_time;
 };
 
+struct JobArguments {
+  std::string file;
+  std::string folder;  ///< -o
+  bool force = false;
+  std::vector<std::string> frames;
+  OutputArguments output;  ///< of every run
+};
+
 struct CheckArguments {
   ProgramArguments program;  ///< `program` unused
   std::vector<std::string> programs;
@@ -173,9 +181,10 @@ struct ExplainArguments {
 
 struct DoctorArguments {};
 
-using Arguments = std::variant<RunArguments, CheckArguments, TraceArguments, MachineArguments,
-                               KinArguments, WorkspaceArguments, AccuracyArguments, LogArguments,
-                               DiffArguments, ExplainArguments, DoctorArguments>;
+using Arguments =
+    std::variant<RunArguments, JobArguments, CheckArguments, TraceArguments, MachineArguments,
+                 KinArguments, WorkspaceArguments, AccuracyArguments, LogArguments, DiffArguments,
+                 ExplainArguments, DoctorArguments>;
 
 /// Either what to do, or the exit code when the command line was answered (help, version, usage).
 std::variant<Arguments, int> parse(int argc, char** argv);

@@ -51,6 +51,9 @@ const std::vector<KindText>& general_kinds() {
        "Every [[event]] needs t (s, in rising order) and at least one of feed, rapid, spindle, "
        "adaptive (percent) and hold (true, false). What is held must be let go by a later event, "
        "or the program would never end. docs/overrides.md has an example."},
+      {"job_invalid", "the file of a job is wrong",
+       "It needs schema = 1 and an [[operation]] for each run, with name, program and machine;\n"
+       "setup, tools, dialect and save_stock may be given. docs/cli.md has an example."},
       {"setup_invalid", "setup.toml is wrong",
        "A key is unknown or a value does not fit; line and column say where."},
       {"stock_memory", "the stock does not fit into memory",

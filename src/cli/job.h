@@ -89,7 +89,14 @@ bool use_color(When when, int descriptor);
 void print_errors(const Diagnostics& diagnostics, When color);
 void print_error(const Diagnostic& diagnostic, When color);
 
-int run_command(const RunArguments& arguments);
+/// What a run tells whoever goes on with it.
+struct RunOutcome {
+  bool finished = false;  ///< false: its inputs can't be read, or an output can't be written
+  bool stock_saved = false;  ///< of a program that reached its end
+  double cycle_time = 0;  ///< s
+};
+int run_command(const RunArguments& arguments, RunOutcome* outcome = nullptr);
+int job_command(const JobArguments& arguments);
 int check_command(const CheckArguments& arguments);
 int trace_command(const TraceArguments& arguments);
 int machine_command(const MachineArguments& arguments);

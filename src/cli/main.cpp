@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
     const int outcome =
         std::visit(overloaded{
                        [](const RunArguments& a) { return run_command(a); },
+                       [](const JobArguments& a) { return job_command(a); },
                        [](const CheckArguments& a) { return check_command(a); },
                        [](const TraceArguments& a) { return trace_command(a); },
                        [](const MachineArguments& a) { return machine_command(a); },

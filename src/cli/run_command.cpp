@@ -259,7 +259,7 @@ Expected<report::FrameOptions> frame_options(const RunArguments& a) {
 
 }  // namespace
 
-int run_command(const RunArguments& a) {
+int run_command(const RunArguments& a, RunOutcome* outcome) {
   const auto fail = [&](const Diagnostic& d) { return refuse(d, a.output); };
   // Everything that can be wrong is looked at before anything is written.
   const auto frames = frame_options(a);
@@ -541,6 +541,10 @@ int run_command(const RunArguments& a) {
                   return list;
                 }()
                     .c_str());
+  const sim::Summary& summary = report.summary;
+  const bool at_end = !summary.program_refused && !summary.interrupted && !summary.limit_reached &&
+                      !interpreter.statistics().limit_reached && !simulator.stopped();
+  if (outcome) *outcome = {true, saved && at_end, summary.cycle_time};
   if (stop_signal != 0) return 128 + stop_signal;
   return code(exit_code_of(report.summary.verdict));
 }

@@ -6,6 +6,7 @@
 #include "machine/kinematics/kinematics_table.h"
 #include "machine/mesh_check.h"
 #include "machine/reading.h"
+#include "machine/rotation/rotation.h"
 
 namespace aircut::machine {
 
@@ -113,6 +114,13 @@ std::optional<SetupStock> read_stock(config::Table& top, double unit_mm) {
   read_shape(*table, stock, unit_mm);
   stock.place = point(*table, "place", Vec3::Zero(), unit_mm);
   stock.angle = table->number("angle", 0) * deg;
+  if (const auto angles = table->numbers("angles", 3)) {
+    if (table->has("angle"))
+      table->error("angles", "'angle' turns about Z alone, 'angles' about all three: give one");
+    // Until it is placed, S is seen from what `place` is seen from.
+    stock.raw.X_LS.linear() =
+        about_fixed_axes(Vec3((*angles)[0], (*angles)[1], (*angles)[2]) * deg);
+  }
   stock.fixture = table->text("fixture", "");
   stock.fixture_span = table->has("fixture") ? table->span("fixture") : table->span();
   stock.replaces = table->text("replaces", "");
@@ -137,7 +145,8 @@ void place_stock(const SetupStock& stock, const PackageFiles& files, Machine& ma
   };
   raw.link = machine.work_link();
   Pose X_MS = translation(stock.place);
-  X_MS.linear() = Eigen::AngleAxisd(stock.angle, Vec3::UnitZ()).toRotationMatrix();
+  X_MS.linear() =
+      Eigen::AngleAxisd(stock.angle, Vec3::UnitZ()).toRotationMatrix() * stock.raw.X_LS.linear();
   if (!stock.fixture.empty()) {
     std::vector<std::string> names;
     const Fixture* holder = nullptr;
