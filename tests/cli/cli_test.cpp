@@ -221,7 +221,7 @@ TEST_F(Cli, RefusesInputsThatCantBeRead) {
            {"workspace -m mill3 --tool -1", "write a number of 0 or more"},
            {"kin fk", "see aircut kin fk --help"},
            {"machine foo", "There are check, info"},
-           {"", "name a command: run, check"},
+           {"", "name a command: run, job, check"},
        }) {
     const Outcome r = aircut(c.arguments);
     EXPECT_EQ(r.code, 2) << c.arguments << "\n" << r.out << r.err;
