@@ -82,9 +82,9 @@ void Elastic::respond(std::span<const Load> loads, Structure::Scratch& scratch) 
 
 // What the load of one contact alone does to each along its normal.
 const std::vector<double>& Elastic::along_normals(std::size_t source, const Load& load) {
-  std::vector<Load> loads(contacts_.size());
-  loads[source] = load;
-  respond(loads, trial_);
+  loads_.assign(contacts_.size(), {});
+  loads_[source] = load;
+  respond(loads_, trial_);
   row_.resize(contacts_.size());
   for (std::size_t k = 0; k < row_.size(); ++k) row_[k] = normals_[k].dot(moved_[k].displacement);
   return row_;
@@ -135,8 +135,12 @@ void Elastic::fields(std::span<const Engaged> engaged) {
   std::vector<std::vector<double>> a(n, std::vector<double>(n)), b = a;  // [contact][source]
   std::vector<double> dt(n);
   for (std::size_t l = 0; l < n; ++l) {
-    const auto& part = along_normals(l, answers_[l].load);
-    for (std::size_t k = 0; k < n; ++k) a[k][l] = part[k];
+    if (n == 1) {
+      a[0][0] = normals_[0].dot(answers_[0].moved.displacement);
+    } else {
+      const auto& part = along_normals(l, answers_[l].load);
+      for (std::size_t k = 0; k < n; ++k) a[k][l] = part[k];
+    }
     const auto& slope =
         along_normals(l, {engaged[l].contact.force.slope(answers_[l].t), Vec3::Zero()});
     for (std::size_t k = 0; k < n; ++k) b[k][l] = slope[k];
@@ -223,6 +227,7 @@ std::span<const Answer> Elastic::answer(std::span<const Engaged> engaged) {
   }
   for (std::size_t k = 0; k < engaged.size(); ++k) answers_[k].t = engaged[k].contact.t;
   if (setup_.settings.coupled) find_depths(engaged);
+  loads_.clear();
   for (std::size_t k = 0; k < engaged.size(); ++k) {
     const DepthForce& force = engaged[k].contact.force;
     answers_[k].load = {force.force(answers_[k].t), force.moment};

@@ -31,11 +31,12 @@ bool Together::add(const sim::Cut& cut) {
     return one.channel == cut.channel && one.t0 >= now_ - tolerated;
   });
   if (alone) {
-    for (const sim::Cut& one : open_) {
-      piece_.assign(1, one);
+    if (!open_.empty()) now_ = std::max(now_, std::min(open_.back().t1, cut.t0));
+    for (sim::Cut& one : open_) {
+      piece_.clear();
+      piece_.push_back(std::move(one));
       take_(piece_);
     }
-    if (!open_.empty()) now_ = std::max(now_, std::min(open_.back().t1, cut.t0));
     open_.clear();
   } else {
     hand_over(cut.t0);
