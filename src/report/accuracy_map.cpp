@@ -20,8 +20,6 @@ constexpr std::array<std::array<std::uint8_t, 3>, 8> ramp = {{
     {232, 112, 48},
     {166, 24, 40},
 }};
-constexpr std::array<const char*, 8> names = {"navy",   "blue",   "pale blue", "green",
-                                              "yellow", "orange", "red",       "dark red"};
 constexpr std::array<std::uint8_t, 3> stock_color = {207, 178, 122};
 constexpr double um = 1e3;       // per mm
 constexpr double finest = 1e-3;  // µm: a narrower step says nothing
@@ -72,11 +70,11 @@ ErrorScale::ErrorScale(const std::vector<std::optional<double>>& errors) {
     for (int i = 0; i < count; ++i) {
       const auto at = static_cast<std::size_t>(
           count == 1 ? 3 : i * (static_cast<int>(ramp.size()) - 1) / (count - 1));
-      steps_.push_back({ramp[at], std::string(names[at]) + ": " + shortest(first_ + i * width_) +
-                                      " … " + shortest(first_ + (i + 1) * width_) + " µm"});
+      steps_.push_back(
+          {ramp[at], shortest(first_ + i * width_) + " … " + shortest(first_ + (i + 1) * width_)});
     }
   }
-  steps_.push_back({stock_color, "stock: not predicted"});
+  steps_.push_back({stock_color, "not predicted"});
 }
 
 int ErrorScale::step_of(const std::optional<double>& error) const {
@@ -92,7 +90,7 @@ Expected<render::Image> error_picture(const TriangleMesh& mesh,
   std::vector<int> step_of;
   for (const auto& error : errors) step_of.push_back(scale.step_of(error));
   return map_picture(mesh, step_of, scale.steps(),
-                     "predicted error of the surface (above 0: material is left)", size,
+                     "predicted error of the surface, µm (above 0: material is left)", size,
                      best_corner(mesh, errors));
 }
 

@@ -44,13 +44,10 @@ std::array<std::uint8_t, 3> DeviationScale::color_of(int step) {
 }
 
 std::string DeviationScale::text_of(int step) const {
-  static constexpr std::array<const char*, steps> names = {
-      "dark red", "red", "orange", "yellow", "green", "pale blue", "blue", "royal blue", "navy"};
-  const std::string name = std::string(names[static_cast<std::size_t>(step)]) + ": ";
   const auto border = [&](int i) { return shortest(borders_[static_cast<std::size_t>(i)]); };
-  if (step == 0) return name + "below " + border(0);
-  if (step == steps - 1) return name + "above " + border(steps - 2);
-  return name + border(step - 1) + " … " + border(step);
+  if (step == 0) return "below " + border(0);
+  if (step == steps - 1) return "above " + border(steps - 2);
+  return border(step - 1) + " … " + border(step);
 }
 
 std::vector<std::array<std::uint8_t, 3>> DeviationScale::colors(
@@ -78,7 +75,7 @@ Expected<render::Image> map_picture(const TriangleMesh& mesh, const std::vector<
     if (triangles[step].empty()) continue;
     TriangleMesh part = part_of(mesh, triangles[step]);
     const auto& color = steps[step].color;
-    scene.caption.right.push_back(steps[step].text);
+    scene.legend.push_back({steps[step].text, {color[0], color[1], color[2]}});
     box.extend(bounds(part));
     scene.bodies.push_back({.name = "map",
                             .mesh = std::make_shared<TriangleMesh>(std::move(part)),
