@@ -191,8 +191,12 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
       "run a program on a machine: joints, collisions, frames, verdict\n\n"
       "  aircut run programs/bracket.ngc -m mill3 -o out\n"
       "  aircut run part.ngc -m machines/ox-glide-crossed --frames count=24 -o out --force");
-  c_run->add_option("PROGRAM", run.program.program, "the program; - reads standard input")
-      ->required();
+  c_run->add_option("PROGRAM", run.program.program, "the program; - reads standard input");
+  c_run
+      ->add_option("--channel", run.channels,
+                   "in place of PROGRAM: the program of a channel by its name or number in the "
+                   "package; all that are given run at once (repeatable; docs/channels.md)")
+      ->type_name("NAME=PROGRAM");
   c_run
       ->add_option("-m,--machine", run.program.machine,
                    "shipped name, package folder, machine.toml, LinuxCNC .ini or robot .urdf")
@@ -542,6 +546,13 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
                      "--near, --period and --max-sim-time take plain numbers of 0 or more"),
           active());
   if (c_run->parsed()) {
+    if (run.program.program.empty() == run.channels.empty())
+      return usage_error(
+          make_error("usage", run.channels.empty()
+                                  ? "run needs a PROGRAM, or --channel NAME=PROGRAM for each of "
+                                    "several channels"
+                                  : "run takes either a PROGRAM or --channel NAME=PROGRAM"),
+          "run");
     run.program.set = *sets;
     run.output.fail_on = severity_of(fail_on);
     std::tie(run.width, run.height) = *pixels;

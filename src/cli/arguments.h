@@ -50,7 +50,8 @@ struct ViewArguments {
 };
 
 struct RunArguments {
-  ProgramArguments program;
+  ProgramArguments program;           ///< `program` is empty with channels
+  std::vector<std::string> channels;  ///< --channel NAME=PROGRAM, as written
   OutputArguments output;
   std::string folder;  ///< -o
   bool force = false;

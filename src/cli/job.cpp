@@ -114,7 +114,9 @@ bool open_inputs(Job& job, const ProgramArguments& arguments, std::optional<doub
   };
   if (!open_ini(job, arguments)) return false;
   const double unit_mm = job.control ? job.control->unit_mm : 1.0;
-  if (machine::split_channel(arguments.machine).first.ends_with(".ini")) {
+  if (job.machine) {
+    // its channels are read already
+  } else if (machine::split_channel(arguments.machine).first.ends_with(".ini")) {
     if (arguments.ini_use != ProgramArguments::IniUse::control && !import_ini(job, arguments))
       return false;
   } else if (machine::split_channel(arguments.machine).first.ends_with(".urdf")) {
@@ -165,6 +167,28 @@ bool open_inputs(Job& job, const ProgramArguments& arguments, std::optional<doub
   }
   if (job.control) job.tools.random_changer = job.control->random_tool_changer;
   return out.errors() == 0;
+}
+
+bool open_channels(Job& job, const ProgramArguments& arguments,
+                   const std::vector<std::string>& channels, machine::ChannelMachines& machines) {
+  Diagnostics& out = job.diagnostics;
+  const auto path = machine::find_package(arguments.machine, package_folders());
+  if (!path) {
+    out.add(path.error());
+    return false;
+  }
+  auto read = machine::read_channel_machines(*path, channels, job.sources, out);
+  if (!read) {
+    if (out.errors() == 0) out.add(read.error());
+    return false;
+  }
+  machines = std::move(*read);
+  job.machine = machines.whole;
+  job.inputs.push_back({"machine", arguments.machine, hash_of_package(job.machine->folder())});
+  job.start = job.machine->home();
+  if (!open_inputs(job, arguments)) return false;
+  machines.whole = job.machine;
+  return true;
 }
 
 // What a program can do to switch the kinematics. The analog output of a set-up counts for a

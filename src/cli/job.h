@@ -8,6 +8,7 @@
 
 #include "cli/arguments.h"
 #include "linuxcnc/linuxcnc.h"
+#include "machine/channels.h"
 #include "report/accept.h"
 #include "report/report.h"
 #include "sim/sim.h"
@@ -35,6 +36,10 @@ struct Job {
 /// it is not the control's.
 bool open_inputs(Job& job, const ProgramArguments& arguments,
                  std::optional<double> table_unit_mm = {});
+
+/// Likewise for a machine whose channels run at once; job.machine is the whole machine.
+bool open_channels(Job& job, const ProgramArguments& arguments,
+                   const std::vector<std::string>& channels, machine::ChannelMachines& machines);
 
 /// The LinuxCNC set-up that was named, with --ini or as the machine; empty without.
 std::string ini_of(const ProgramArguments& arguments);

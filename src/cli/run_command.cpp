@@ -15,6 +15,7 @@
 #include "cli/job.h"
 #include "cli/overrides.h"
 #include "cli/print_report.h"
+#include "cli/run_channels.h"
 #include "cli/view.h"
 #include "log/log.h"
 #include "logbook/logbook.h"
@@ -121,8 +122,6 @@ Expected<void> make_folder(const std::string& folder, bool force) {
   return {};
 }
 
-namespace {
-
 // The output folder of a run: made, or emptied of what an earlier run listed in its result.json.
 Expected<void> prepare_folder(const std::string& folder, bool force) {
   std::error_code error;
@@ -144,6 +143,8 @@ Expected<void> prepare_folder(const std::string& folder, bool force) {
   }
   return {};
 }
+
+namespace {
 
 // A file of its own: `--log`, `--part`, `--save-stock`.
 Expected<void> may_write(const std::string& path, bool force) {
@@ -232,6 +233,8 @@ std::vector<std::string> unchecked_of(const Job& job, const Checks& checks) {
   return all;
 }
 
+}  // namespace
+
 Expected<report::FrameOptions> frame_options(const RunArguments& a) {
   report::FrameOptions options;
   const auto view = view_of(a.view);
@@ -257,9 +260,15 @@ Expected<report::FrameOptions> frame_options(const RunArguments& a) {
   return options;
 }
 
-}  // namespace
+void listen_to_signals() {
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+}
+
+int signal_that_came() { return stop_signal; }
 
 int run_command(const RunArguments& a, RunOutcome* outcome) {
+  if (!a.channels.empty()) return run_channels(a);
   const auto fail = [&](const Diagnostic& d) { return refuse(d, a.output); };
   // Everything that can be wrong is looked at before anything is written.
   const auto frames = frame_options(a);
@@ -375,8 +384,7 @@ int run_command(const RunArguments& a, RunOutcome* outcome) {
 
   if (auto ready = accuracy.attach(simulator, a.folder); !ready) return fail(ready.error());
 
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  listen_to_signals();
   Progress progress(a.output.quiet ? When::never : a.output.progress);
   sim::RunOptions options;
   options.stop_requested = [] { return stop_signal != 0; };

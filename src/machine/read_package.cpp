@@ -273,6 +273,8 @@ Expected<std::shared_ptr<const Machine>> read_machine_text(const SourceText& tex
   read_collision(top, *machine, state.unit_mm);
   read_tool_change(top, state);
   read_user_codes(top, *machine);
+  if (const auto wait = read_wait_codes(top); wait && machine->channels().empty())
+    top.error("wait", "[wait] is for a machine with channels, and there is no [[channel]]");
   read_tcp(top, *machine);
   read_files(top, state);
 

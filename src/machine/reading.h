@@ -85,6 +85,8 @@ std::optional<SetupPart> read_part(config::Table& top, double unit_mm);
 /// Puts it on the machine, whose stock is placed. Problems go to `out`.
 void place_part(const SetupPart& part, const PackageFiles& files, Machine& machine,
                 Diagnostics& out);
+/// `[wait]`: the first and the last M-code with which channels wait for one another.
+std::optional<std::pair<int, int>> read_wait_codes(config::Table& top);
 /// `color = "#rrggbb"`.
 Color read_color(config::Table& table, Color fallback = {});
 /// `unit` and `up` of a mesh file.

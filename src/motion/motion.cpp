@@ -42,14 +42,41 @@ JointVector JointMotion::near_at(double s) const {
   return anchors_[static_cast<std::size_t>(std::clamp(step, 0.0, double{steps}))];
 }
 
+JointMotion::JointMotion(const machine::Machine& whole, const JointMotion& lead,
+                         std::vector<PartMotion> parts, JointVector rest)
+    : machine_(&whole),
+      kinematics_(&whole.kinematics()),
+      segment_(lead.segment_),
+      lead_(&lead),
+      parts_(std::move(parts)),
+      rest_(std::move(rest)) {}
+
 double JointMotion::t0() const { return segment_->t_start; }
 double JointMotion::t1() const { return segment_->t_end(); }
 
 tl::expected<JointVector, ReachError> JointMotion::at(double t) const {
+  if (lead_) {
+    JointVector q = rest_;
+    for (const PartMotion& part : parts_) {
+      const auto own = part.motion->at(t);
+      if (!own) return own;
+      for (std::size_t j = 0; j < part.joints.size(); ++j)
+        if (part.joints[j] >= 0) q[part.joints[j]] = (*own)[static_cast<Eigen::Index>(j)];
+    }
+    return q;
+  }
   return at_path(segment_->profile.at(t - segment_->t_start).s);
 }
 
 tl::expected<JointVector, ReachError> JointMotion::at_path(double s) const {
+  if (lead_) {
+    double low = 0, high = segment_->duration();
+    for (int i = 0; i < 50 && low < high; ++i) {
+      const double middle = 0.5 * (low + high);
+      (segment_->profile.at(middle).s < s ? low : high) = middle;
+    }
+    return at(segment_->t_start + high);
+  }
   if (const auto* way = std::get_if<plan::JointWay>(&segment_->path))
     return plan::joint_point(*way, s).q;
   const AxisValues tip = plan::evaluate(segment_->path, s).p;
@@ -67,6 +94,7 @@ AxisValues JointMotion::tip_on_work(const JointVector& joints, const AxisValues&
 }
 
 tl::expected<JointState, ReachError> JointMotion::state_at(double t) const {
+  if (lead_) return whole_state_at(t);
   const auto [s, v, a] = segment_->profile.at(t - segment_->t_start);
   const plan::PathPoint p = plan::evaluate(segment_->path, s);
   const Target target{p.p, segment_->tool_offset};
@@ -97,7 +125,39 @@ tl::expected<JointState, ReachError> JointMotion::state_at(double t) const {
   return out;
 }
 
+tl::expected<JointState, ReachError> JointMotion::whole_state_at(double t) const {
+  auto out = lead_->state_at(t);
+  if (!out) return out;
+  out->q = rest_;
+  out->v = out->a = JointVector::Zero(rest_.size());
+  for (const PartMotion& part : parts_) {
+    const auto own = part.motion->state_at(t);
+    if (!own) return own;
+    for (std::size_t j = 0; j < part.joints.size(); ++j) {
+      if (part.joints[j] < 0) continue;
+      const auto i = static_cast<Eigen::Index>(j);
+      out->q[part.joints[j]] = own->q[i];
+      out->v[part.joints[j]] = own->v[i];
+      out->a[part.joints[j]] = own->a[i];
+    }
+  }
+  return out;
+}
+
+bool JointMotion::whole_bound(double ta, double tb, std::span<double> travel) const {
+  std::fill(travel.begin(), travel.end(), 0.0);
+  std::vector<double> own;
+  for (const PartMotion& part : parts_) {
+    own.assign(part.motion->machine().tree().size(), 0);
+    if (!part.motion->travel_bound(ta, tb, own)) return false;
+    for (std::size_t j = 0; j < part.joints.size(); ++j)
+      if (part.joints[j] >= 0) travel[static_cast<std::size_t>(part.joints[j])] = own[j];
+  }
+  return true;
+}
+
 bool JointMotion::travel_bound(double ta, double tb, std::span<double> travel) const {
+  if (lead_) return whole_bound(ta, tb, travel);
   const auto [s0, s1] = segment_->profile.range(ta - segment_->t_start, tb - segment_->t_start);
   if (!(s1 > s0)) {
     std::fill(travel.begin(), travel.end(), 0.0);

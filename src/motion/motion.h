@@ -22,11 +22,25 @@ struct JointState {
   double s = 0;           ///< along the segment's path, mm
 };
 
+class JointMotion;
+
+/// One of the motions that a machine is moved by at once.
+struct PartMotion {
+  const JointMotion* motion = nullptr;
+  std::vector<int> joints;  ///< of the whole machine, for each of its own; -1: it leaves that alone
+};
+
 class JointMotion {
  public:
   /// Borrows machine and segment for its life. `near` are the joints at the segment's start, for
   /// the choice of branch.
   JointMotion(const machine::Machine& machine, const plan::Segment& segment, JointVector near);
+
+  /// The motion of a machine whose channels move at once: every part moves its joints, the others
+  /// stand as in `rest`. All parts last as long as the segment of `lead`, whose tip and way are
+  /// told. Borrows everything.
+  JointMotion(const machine::Machine& whole, const JointMotion& lead, std::vector<PartMotion> parts,
+              JointVector rest);
 
   double t0() const;  ///< program time of the start, s
   double t1() const;
@@ -52,10 +66,16 @@ class JointMotion {
   const machine::Kinematics* kinematics_;
   const plan::Segment* segment_;
   JointVector near_at(double s) const;
+  tl::expected<JointState, machine::ReachError> whole_state_at(double t) const;
+  bool whole_bound(double ta, double tb, std::span<double> travel) const;
 
   /// Joints at even steps along the path, each found from the one before: on long moves the joints
   /// at the start say nothing about the turn or branch at the end.
   std::vector<JointVector> anchors_;
+  // Of a whole machine:
+  const JointMotion* lead_ = nullptr;  ///< null: this is one channel's motion
+  std::vector<PartMotion> parts_;
+  JointVector rest_;
 };
 
 /// How many values travel_bound() gives: driven joints and passive values.

@@ -29,7 +29,8 @@ constexpr std::size_t most_sheet_cells = 24;
 Snapshot snapshot_at(const sim::Step& step, double t) {
   Snapshot shot;
   shot.t = t;
-  shot.tool = step.scene.loaded_tool();
+  shot.tool = step.scene.loaded_tool(step.all ? step.channel : 0);
+  if (step.all) shot.tools = step.scene.loaded_tools();
   shot.span = step.span();
   shot.kind = step.segment.kind;
   if (const auto state = step.motion.state_at(t)) {
@@ -165,8 +166,8 @@ struct FrameMaker::Impl {
   Expected<render::Image> draw(const Job& job, render::Renderer& renderer);
 
   Impl(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools,
-       FrameOptions o)
-      : scene(std::move(machine), tools), options(std::move(o)) {}
+       FrameOptions o, std::vector<sim::Seat> seats)
+      : scene(std::move(machine), tools, std::move(seats)), options(std::move(o)) {}
 
   // Evenly spaced candidates; `tick` is their spacing.
   void add_moments(const sim::Step& step) {
@@ -262,7 +263,10 @@ struct FrameMaker::Impl {
   }
 
   Expected<render::Scene> picture(const Snapshot& shot) {
-    if (scene.loaded_tool() != shot.tool) scene.load_tool(shot.tool);
+    if (!scene.seats().empty())
+      scene.load_tools(shot.tools);
+    else if (scene.loaded_tool() != shot.tool)
+      scene.load_tool(shot.tool);
     render::Scene out;
     out.bodies = draw_bodies(scene, shot.joints);
     if (auto put = put_stock(out, shot.t); !put) return unexpected(put.error());
@@ -286,6 +290,14 @@ struct FrameMaker::Impl {
       axes += (j > 0 ? "   " : "") + joint.name + " " + fixed(value, 3);
     }
     out.caption.right.push_back(axes);
+    if (!scene.seats().empty()) {  // the motion is one channel's: it is left out
+      std::string tools;
+      for (std::size_t i = 0; i < scene.seats().size(); ++i)
+        tools += (i > 0 ? "   " : "") + scene.seats()[i].channel + " T" +
+                 std::to_string(scene.loaded_tool(i));
+      out.caption.right.push_back(tools);
+      return out;
+    }
     std::string tool = "no tool";
     if (shot.tool > 0) tool = "T" + std::to_string(shot.tool);
     if (const tool::Tool* loaded = scene.tool(); loaded && !loaded->name.empty())
@@ -345,12 +357,15 @@ struct FrameMaker::Impl {
 };
 
 FrameMaker::FrameMaker(std::shared_ptr<const machine::Machine> machine,
-                       const tool::ToolTable& tools, FrameOptions options)
-    : impl_(std::make_unique<Impl>(std::move(machine), tools, std::move(options))) {}
+                       const tool::ToolTable& tools, FrameOptions options,
+                       std::vector<sim::Seat> seats)
+    : impl_(std::make_unique<Impl>(std::move(machine), tools, std::move(options),
+                                   std::move(seats))) {}
 FrameMaker::~FrameMaker() = default;
 
-void FrameMaker::on_start(const sim::Scene&, const machine::JointVector& joints) {
+void FrameMaker::on_start(const sim::Scene& scene, const machine::JointVector& joints) {
   Snapshot first;
+  first.tools = scene.loaded_tools();
   first.joints = joints;
   impl_->moments.push_back(first);
   impl_->next_moment = impl_->tick;
@@ -378,6 +393,7 @@ Snapshot snapshot_of(const sim::Finding& f) {
   shot.t = f.t_worst;
   shot.joints = f.joints_worst;
   shot.tool = f.tool;
+  shot.tools = f.tools;
   shot.span = f.span;
   shot.kind = f.motion;
   shot.feed = f.feed_actual;

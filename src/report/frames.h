@@ -46,6 +46,7 @@ struct Snapshot {
   double t = 0;
   machine::JointVector joints;
   int tool = 0;
+  std::vector<int> tools;  ///< by seat, where channels run at once
   SourceSpan span;
   plan::MotionKind kind = plan::MotionKind::idle;
   double feed = 0;          ///< achieved, mm/s
@@ -60,7 +61,7 @@ std::vector<render::DrawBody> draw_bodies(const sim::Scene& scene,
 class FrameMaker final : public sim::Observer {
  public:
   FrameMaker(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools,
-             FrameOptions options);
+             FrameOptions options, std::vector<sim::Seat> seats = {});
   ~FrameMaker() override;
   void on_start(const sim::Scene& scene, const machine::JointVector& joints) override;
   void on_step(const sim::Step& step) override;

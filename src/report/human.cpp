@@ -89,6 +89,9 @@ std::string underline_remark(const sim::Finding& f) {
     case sim::Kind::tool_missing:
     case sim::Kind::not_executed:
     case sim::Kind::not_checked:
+    case sim::Kind::spindle_conflict:
+    case sim::Kind::axis_conflict:
+    case sim::Kind::wait_deadlock:
       return "t = " + seconds(f.t_first);
     case sim::Kind::excess:
     case sim::Kind::wrong_setup:
@@ -320,6 +323,12 @@ Diagnostic to_diagnostic(const sim::Finding& f, const RunReport& report) {
              (f.tool_name.empty() ? "" : " \"" + f.tool_name + "\"") + " in the spindle";
   if (f.spindle_rpm != 0) state += ", spindle " + fixed(f.spindle_rpm, 0) + " rev/min";
   if (!state.empty()) d.notes.push_back({"state", state});
+  if (!f.channel.empty()) d.notes.push_back({"channel", f.channel});
+  if (!f.other_channel.empty())
+    d.notes.push_back({"with", "channel " + f.other_channel +
+                                   (f.other_span ? " at " + f.other_span.place() + ": " +
+                                                       printable(f.other_span.line_text())
+                                                 : "")});
   if (!f.picture.empty()) d.notes.push_back({"frame", f.picture});
   if (!f.remedy.empty()) d.notes.push_back({"help", f.remedy});
   return d;

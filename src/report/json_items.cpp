@@ -68,53 +68,59 @@ Json finding(const sim::Finding& f, const Diagnostic& text, const std::string& p
   for (const Vec3& p : f.points) points.push_back(vector3(p));
   Json points_part = Json::array();
   for (const Vec3& p : f.points_part) points_part.push_back(vector3(p));
-  return {{"id", f.id},
-          {"episode", f.episode},
-          {"kind", sim::to_string(f.kind)},
-          {"severity", to_string(f.severity)},
-          {"message", utf8(f.message)},
-          {"program", utf8(program)},
-          {"place", place(f.span)},
-          {"expanded", utf8(f.expanded)},
-          {"tool", f.tool},
-          {"tool_name", utf8(f.tool_name)},
-          {"wcs", f.work_system},
-          {"motion", plan::to_string(f.motion)},
-          {"t_first_s", f.t_first},
-          {"t_worst_s", f.t_worst},
-          {"t_end_s", f.t_end},
-          {"u_first", f.u_first},
-          {"u_end", f.u_end},
-          {"joints_first", joints(f.joints_first, report)},
-          {"joints_worst", joints(f.joints_worst, report)},
-          {"h_offset", f.length_offset > 0 ? Json(f.length_offset) : Json(nullptr)},
-          {"tcp_machine", axes(f.tip)},
-          {"tcp_part_mm", f.tip_part ? vector3(*f.tip_part) : Json(nullptr)},
-          {"tool_axis", vector3(f.tool_axis)},
-          {"feed_mm_per_min", f.feed * 60},
-          {"feed_actual_mm_per_min", f.feed_actual * 60},
-          {"spindle_rpm", f.spindle_rpm},
-          {"body_a", utf8(f.body_a)},
-          {"body_b", utf8(f.body_b)},
-          {"pair", f.pair},
-          {"depth_mm", or_null(f.depth)},
-          {"depth_bound_mm", or_null(f.depth_bound)},
-          {"points_mm", points},
-          {"points_part_mm", points_part},
-          {"axial_retract_mm", or_null(f.axial_retract)},
-          {"retreat_mm", or_null(f.retreat)},
-          {"volume_mm3", f.unit == "mm3" ? or_null(f.value) : Json(nullptr)},
-          {"normal", vector3(f.normal)},
-          {"joint", utf8(f.joint)},
-          {"quantity", f.quantity},
-          {"value", or_null(f.value)},
-          {"limit", or_null(f.limit)},
-          {"unit", f.unit},
-          {"unresolved", f.unresolved},
-          {"makes_unknown", f.makes_unknown},
-          {"remedy", utf8(f.remedy)},
-          {"picture", utf8(f.picture)},
-          {"fingerprint", fingerprint_of(text, program, &f, report.folder)}};
+  Json out = {{"id", f.id},
+              {"episode", f.episode},
+              {"kind", sim::to_string(f.kind)},
+              {"severity", to_string(f.severity)},
+              {"message", utf8(f.message)},
+              {"program", utf8(program)},
+              {"place", place(f.span)},
+              {"expanded", utf8(f.expanded)},
+              {"tool", f.tool},
+              {"tool_name", utf8(f.tool_name)},
+              {"wcs", f.work_system},
+              {"motion", plan::to_string(f.motion)},
+              {"t_first_s", f.t_first},
+              {"t_worst_s", f.t_worst},
+              {"t_end_s", f.t_end},
+              {"u_first", f.u_first},
+              {"u_end", f.u_end},
+              {"joints_first", joints(f.joints_first, report)},
+              {"joints_worst", joints(f.joints_worst, report)},
+              {"h_offset", f.length_offset > 0 ? Json(f.length_offset) : Json(nullptr)},
+              {"tcp_machine", axes(f.tip)},
+              {"tcp_part_mm", f.tip_part ? vector3(*f.tip_part) : Json(nullptr)},
+              {"tool_axis", vector3(f.tool_axis)},
+              {"feed_mm_per_min", f.feed * 60},
+              {"feed_actual_mm_per_min", f.feed_actual * 60},
+              {"spindle_rpm", f.spindle_rpm},
+              {"body_a", utf8(f.body_a)},
+              {"body_b", utf8(f.body_b)},
+              {"pair", f.pair},
+              {"depth_mm", or_null(f.depth)},
+              {"depth_bound_mm", or_null(f.depth_bound)},
+              {"points_mm", points},
+              {"points_part_mm", points_part},
+              {"axial_retract_mm", or_null(f.axial_retract)},
+              {"retreat_mm", or_null(f.retreat)},
+              {"volume_mm3", f.unit == "mm3" ? or_null(f.value) : Json(nullptr)},
+              {"normal", vector3(f.normal)},
+              {"joint", utf8(f.joint)},
+              {"quantity", f.quantity},
+              {"value", or_null(f.value)},
+              {"limit", or_null(f.limit)},
+              {"unit", f.unit},
+              {"unresolved", f.unresolved},
+              {"makes_unknown", f.makes_unknown},
+              {"remedy", utf8(f.remedy)},
+              {"picture", utf8(f.picture)},
+              {"fingerprint", fingerprint_of(text, program, &f, report.folder)}};
+  if (!f.channel.empty()) out["channel"] = utf8(f.channel);
+  if (!f.other_channel.empty()) {
+    out["other_channel"] = utf8(f.other_channel);
+    out["other_place"] = place(f.other_span);
+  }
+  return out;
 }
 
 Json diagnostic(const Diagnostic& d, const std::string& program, const std::string& fingerprint) {
@@ -284,6 +290,17 @@ Json tail_items(const RunReport& report) {
               {"programs", programs(report)},
               {"timing", timing},
               {"extents", extents}};
+  if (!report.channels.empty()) {
+    Json rows = Json::array();
+    for (const ChannelRow& row : report.channels)
+      rows.push_back({{"channel", utf8(row.name)},
+                      {"program", utf8(row.program)},
+                      {"cycle_time_s", row.time},
+                      {"waiting_s", row.waiting},
+                      {"blocks", row.blocks},
+                      {"moves", row.moves}});
+    out["channels"] = rows;
+  }
   if (!report.peaks.empty()) out["peaks"] = peaks(report.peaks);
   if (report.accuracy) out["accuracy"] = along_item(*report.accuracy);
   if (report.planner.pieces > 0)

@@ -71,6 +71,13 @@ struct Operation {
   double feed = 0, rapid = 0, tool_change = 0;
 };
 
+/// One of several channels that have run at once.
+struct ChannelRow {
+  std::string name, program;
+  double time = 0, waiting = 0;  ///< s: until its end, and of that at wait codes
+  std::uint64_t blocks = 0, moves = 0;
+};
+
 struct AccuracyAlong;  // report/accuracy_along.h
 
 /// Everything that a run ends with.
@@ -90,6 +97,7 @@ struct RunReport {
   std::vector<JointPeak> peaks;                   ///< empty without a joint log of every sample
   std::shared_ptr<const AccuracyAlong> accuracy;  ///< null when it was not asked for
   std::optional<JointPeak::At> chord_error;       ///< mm; nothing without such a log
+  std::vector<ChannelRow> channels;               ///< empty when there was just one
   plan::Statistics planner;
   std::vector<std::string> outputs;          ///< relative to the output folder
   std::vector<Unit> units;                   ///< empty when there was one program

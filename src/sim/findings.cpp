@@ -49,6 +49,9 @@ constexpr KindRow kinds[] = {
     {Kind::tool_missing, "tool_missing", Severity::error},
     {Kind::not_executed, "not_executed", Severity::warning},
     {Kind::not_checked, "not_checked", Severity::warning},
+    {Kind::spindle_conflict, "spindle_conflict", Severity::error},
+    {Kind::axis_conflict, "axis_conflict", Severity::error},
+    {Kind::wait_deadlock, "wait_deadlock", Severity::error},
 };
 
 const KindRow& row_of(Kind kind) { return kinds[static_cast<std::size_t>(kind)]; }
@@ -88,8 +91,13 @@ Finding finding_at(Kind kind, const Step& step, double t) {
   f.block = segment.command.block;
   f.t_block = segment.t_start;
   f.t_block_end = segment.t_end();
-  f.tool = step.scene.loaded_tool();
-  if (const tool::Tool* tool = step.scene.tool()) f.tool_name = tool->name;
+  const std::size_t seat = step.all ? step.channel : 0;
+  f.tool = step.scene.loaded_tool(seat);
+  if (const tool::Tool* tool = step.scene.tool(seat)) f.tool_name = tool->name;
+  if (step.all) {
+    f.channel = step.all->names[step.channel];
+    f.tools = step.scene.loaded_tools();
+  }
   f.work_system = work_system_name(segment.work_system);
   f.motion = segment.kind;
   f.length_offset = step.scene.length_offset();

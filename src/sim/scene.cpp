@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "sim/sim.h"
 #include "tool/insert.h"
 
@@ -53,8 +55,12 @@ TriangleMesh prism(const tool::Block& block) {
 
 }  // namespace
 
-Scene::Scene(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools)
-    : machine_(std::move(machine)), tools_(tools) {
+Scene::Scene(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools,
+             std::vector<Seat> seats)
+    : machine_(std::move(machine)),
+      tools_(tools),
+      seats_(std::move(seats)),
+      loaded_(std::max<std::size_t>(seats_.size(), 1), 0) {
   // Bodies that share a mesh (two equal rods) share its tree.
   std::map<const TriangleMesh*, std::shared_ptr<const collide::CollisionMesh>> trees;
   for (const machine::Body& body : machine_->bodies()) {
@@ -69,20 +75,32 @@ Scene::Scene(std::shared_ptr<const machine::Machine> machine, const tool::ToolTa
   fixed_bodies_ = bodies_.size();
 }
 
-const tool::Tool* Scene::tool() const { return loaded_ == 0 ? nullptr : tools_.find(loaded_); }
+const tool::Tool* Scene::tool(std::size_t seat) const {
+  return loaded_[seat] == 0 ? nullptr : tools_.find(loaded_[seat]);
+}
 
-void Scene::load_tool(int number) {
-  loaded_ = number;
+void Scene::load_tool(int number, std::size_t seat) {
+  loaded_[seat] = number;
   bodies_.resize(fixed_bodies_);
-  const tool::Tool* loaded = tool();
+  for (std::size_t i = 0; i < loaded_.size(); ++i) add_tool(i);
+}
+
+void Scene::load_tools(const std::vector<int>& numbers) {
+  for (std::size_t i = 0; i < loaded_.size() && i < numbers.size(); ++i)
+    if (loaded_[i] != numbers[i]) load_tool(numbers[i], i);
+}
+
+void Scene::add_tool(std::size_t seat) {
+  const tool::Tool* loaded = tool(seat);
   if (!loaded) return;
-  const machine::Spindle& spindle = machine_->spindle();
+  const machine::Spindle& spindle = seats_.empty() ? machine_->spindle() : seats_[seat].spindle;
+  const std::string owner = seats_.empty() ? "" : seats_[seat].channel + ":";
   Pose X_LF = translation(spindle.gauge);
   X_LF.linear() = spindle.R_LF;
   const auto add = [&](const std::string& name, tool::PieceRole role, TriangleMesh mesh,
                        const Vec3& from_gauge) {
     machine::Body body;
-    body.name = "T" + std::to_string(number) + "/" + name;
+    body.name = owner + "T" + std::to_string(loaded_[seat]) + "/" + name;
     body.role = role_of(role, tool::is_probe(*loaded));
     body.link = spindle.link;
     body.mesh = std::make_shared<TriangleMesh>(std::move(mesh));

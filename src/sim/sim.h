@@ -29,10 +29,18 @@ struct SceneBody {
   std::shared_ptr<const collide::CollisionMesh> collision;  ///< null when it does not collide
 };
 
+/// A place for a tool, on a machine whose channels run at once.
+struct Seat {
+  std::string channel;
+  machine::Spindle spindle;
+};
+
 /// What is where. Changes only at a tool change.
 class Scene {
  public:
-  Scene(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools);
+  /// Without seats there is one, the machine's spindle.
+  Scene(std::shared_ptr<const machine::Machine> machine, const tool::ToolTable& tools,
+        std::vector<Seat> seats = {});
 
   const machine::Machine& machine() const { return *machine_; }
   std::shared_ptr<const machine::Machine> machine_ptr() const { return machine_; }
@@ -41,26 +49,47 @@ class Scene {
   int length_offset() const { return length_offset_; }
   void use_length_offset(int tool) { length_offset_ = tool; }
   /// Puts a tool into the spindle (0 = none).
-  void load_tool(int number);
-  int loaded_tool() const { return loaded_; }
-  const tool::Tool* tool() const;
+  void load_tool(int number, std::size_t seat = 0);
+  /// Puts one into every seat.
+  void load_tools(const std::vector<int>& numbers);
+  int loaded_tool(std::size_t seat = 0) const { return loaded_[seat]; }
+  /// By seat.
+  const std::vector<int>& loaded_tools() const { return loaded_; }
+  const tool::Tool* tool(std::size_t seat = 0) const;
   const tool::ToolTable& tools() const { return tools_; }
+  /// Empty when only one channel runs.
+  const std::vector<Seat>& seats() const { return seats_; }
 
  private:
+  void add_tool(std::size_t seat);
+
   std::shared_ptr<const machine::Machine> machine_;
   tool::ToolTable tools_;
+  std::vector<Seat> seats_;
   std::size_t fixed_bodies_ = 0;  ///< the tool's pieces come after these
   std::vector<SceneBody> bodies_;
-  int loaded_ = 0;
+  std::vector<int> loaded_;  ///< by seat
   int length_offset_ = 0;
 };
+
+struct ChannelSteps;
 
 /// One interval given to the checks.
 struct Step {
   const Scene& scene;
   const motion::JointMotion& motion;
   const plan::Segment& segment;
+  /// On a machine whose channels run at once: whose segment it is, and what all of them do.
+  std::size_t channel = 0;
+  const ChannelSteps* all = nullptr;
   const SourceSpan& span() const { return segment.command.span; }
+};
+
+/// What the channels do in one interval.
+struct ChannelSteps {
+  std::vector<Step> of;                            ///< by channel: the same motion of the machine
+  std::vector<std::string> names;                  ///< by channel
+  std::vector<std::vector<std::size_t>> moved_by;  ///< by LinkId: channels that move the link
 };
 
 enum class Kind : unsigned char {
@@ -98,6 +127,9 @@ enum class Kind : unsigned char {
   tool_missing,
   not_executed,
   not_checked,
+  spindle_conflict,
+  axis_conflict,
+  wait_deadlock,
 };
 std::string_view to_string(Kind kind);
 Severity severity_of(Kind kind);
@@ -145,6 +177,11 @@ struct Finding {
   bool makes_unknown = false;  ///< something could not be checked
   std::string remedy;
   std::string picture;  ///< path relative to the output folder
+  // Where channels run at once; else empty:
+  std::string channel;        ///< whose block it is
+  std::string other_channel;  ///< that takes part in it …
+  SourceSpan other_span;      ///< … with this block
+  std::vector<int> tools;     ///< in the seats
 };
 
 enum class Verdict : unsigned char { pass, fail, unknown };
@@ -165,9 +202,11 @@ class Findings {
   std::vector<Finding> finish();
 
  private:
-  /// Kind, bodies, joint, quantity.
-  using Key = std::tuple<Kind, std::string, std::string, std::string, std::string>;
-  static Key key_of(const Finding& f) { return {f.kind, f.body_a, f.body_b, f.joint, f.quantity}; }
+  /// Kind, bodies, joint, quantity, channel.
+  using Key = std::tuple<Kind, std::string, std::string, std::string, std::string, std::string>;
+  static Key key_of(const Finding& f) {
+    return {f.kind, f.body_a, f.body_b, f.joint, f.quantity, f.channel};
+  }
 
   std::size_t keep_;
   std::size_t dropped_ = 0;

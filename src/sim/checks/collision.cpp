@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "sim/checks/contact.h"
 #include "sim/checks/pairs.h"
@@ -45,6 +46,35 @@ std::string during(const plan::Segment& segment) {
       return "at standstill";
   }
   return "";
+}
+
+// Where channels run at once: whose block a pair of bodies is told at, and whose other block takes
+// part. A channel that moves just one of the two bodies counts; one that rests comes second.
+struct Told {
+  const Step& step;
+  const Step* other = nullptr;
+};
+
+bool rests(const Step& step) { return std::holds_alternative<plan::Hold>(step.segment.path); }
+
+Told told_at(const Step& step, machine::LinkId a, machine::LinkId b) {
+  if (!step.all) return {step};
+  const auto& of_a = step.all->moved_by[static_cast<std::size_t>(index(a))];
+  const auto& of_b = step.all->moved_by[static_cast<std::size_t>(index(b))];
+  std::vector<std::size_t> moving;
+  std::set_symmetric_difference(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(),
+                                std::back_inserter(moving));
+  std::stable_sort(moving.begin(), moving.end(), [&](std::size_t x, std::size_t y) {
+    return !rests(step.all->of[x]) && rests(step.all->of[y]);
+  });
+  if (moving.empty()) return {step};
+  return {step.all->of[moving[0]], moving.size() > 1 ? &step.all->of[moving[1]] : nullptr};
+}
+
+void name_other(Finding& f, const Told& told) {
+  if (!told.other) return;
+  f.other_channel = told.other->all->names[told.other->channel];
+  f.other_span = told.other->span();
 }
 
 class CollisionCheck final : public Check {
@@ -122,8 +152,10 @@ class CollisionCheck final : public Check {
         look_near(step, a, X_WA, b, X_WB);
         continue;
       }
-      Finding f =
-          finding_at(kind, step, kind == Kind::self_overlap ? step.motion.t0() : step.motion.t1());
+      const Told told = told_at(step, a.body.link, b.body.link);
+      Finding f = finding_at(kind, told.step,
+                             kind == Kind::self_overlap ? step.motion.t0() : step.motion.t1());
+      name_other(f, told);
       name_pair(f, a.body, b.body);
       f.depth = depth.depth;
       f.depth_bound = options_.touch;
@@ -166,6 +198,7 @@ class CollisionCheck final : public Check {
     const SceneBody& a = bodies[pair.a];
     const SceneBody& b = bodies[pair.b];
     const double t1 = step.motion.t1();
+    const Told told = told_at(step, a.body.link, b.body.link);
     const auto relative = relative_motion(*bound_, a, b, cache);
     PairAt at(a, b, cache, cost_);
     const collide::ProofOptions proof{.margin = options_.near,
@@ -198,7 +231,7 @@ class CollisionCheck final : public Check {
                        if (parting && at.distance(t, near.distance_high + 3 * proof.resolution) <=
                                           near.distance_high + 2 * proof.resolution)
                          return;
-                       report_near(step, a.body, b.body, near, cache, out);
+                       report_near(told, a.body, b.body, near, cache, out);
                      },
                      [&](const collide::Hit& hit) {
                        next = row + 1 == most_rows ? t1 : at.end_of_contact(hit, t1);
@@ -209,7 +242,7 @@ class CollisionCheck final : public Check {
                        pair.contact_end = next;
                        pair.touching = (probing || comes_off) && next >= t1;
                        if (probing || comes_off) return;
-                       report_hit(step, a.body, b.body, hit, next, at, cache, out);
+                       report_hit(told, a.body, b.body, hit, next, at, cache, out);
                      },
                      [&](const collide::Unresolved& gap) {
                        pair.touching = probing;
@@ -224,7 +257,7 @@ class CollisionCheck final : public Check {
                        }
                        clear_time_ += (t1 - t) - (gap.t1 - gap.t0);
                        unresolved_time_ += gap.t1 - gap.t0;
-                       report_unresolved(step, a.body, b.body, gap, out);
+                       report_unresolved(told, a.body, b.body, gap, out);
                      },
                  },
                  outcome);
@@ -248,11 +281,13 @@ class CollisionCheck final : public Check {
         std::string(machine::to_string(a.role)) + "-" + std::string(machine::to_string(b.role));
   }
 
-  void report_hit(const Step& step, const Body& a, const Body& b, const collide::Hit& hit,
+  void report_hit(const Told& told, const Body& a, const Body& b, const collide::Hit& hit,
                   double t_end, PairAt& at, PoseCache& cache, Findings& out) {
+    const Step& step = told.step;
     const bool probe = a.role == machine::Role::probe;
     Finding f = finding_at(probe ? Kind::probe_contact : Kind::collision, step, hit.t_first);
     name_pair(f, a, b);
+    name_other(f, told);
     f.message =
         in_words(a) + (probe ? " touches " : " hits ") + in_words(b) + " " + during(step.segment);
     f.t_worst = hit.t_overlap;
@@ -295,10 +330,12 @@ class CollisionCheck final : public Check {
     return f;
   }
 
-  void report_near(const Step& step, const Body& a, const Body& b, const collide::Near& near,
+  void report_near(const Told& told, const Body& a, const Body& b, const collide::Near& near,
                    PoseCache& cache, Findings& out) const {
     if (options_.near <= 0 || near.distance_low >= options_.near) return;
+    const Step& step = told.step;
     Finding f = near_row(step, a, b, near.t, near.distance_low);
+    name_other(f, told);
     f.message = in_words(a) + " passes " + in_words(b) + " at " + fixed(near.distance_low, 3) +
                 " mm " + during(step.segment);
     f.u_first = f.u_end = fraction_at(step, near.t);
@@ -310,10 +347,12 @@ class CollisionCheck final : public Check {
     out.add(f);
   }
 
-  void report_unresolved(const Step& step, const Body& a, const Body& b,
+  void report_unresolved(const Told& told, const Body& a, const Body& b,
                          const collide::Unresolved& gap, Findings& out) const {
+    const Step& step = told.step;
     Finding f = finding_at(Kind::near_miss, step, gap.t0);
     name_pair(f, a, b);
+    name_other(f, told);
     f.message = in_words(a) + " and " + in_words(b) + " come within " +
                 fixed(step.scene.machine().collision_tolerance(), 4) + " mm " +
                 during(step.segment) + ": neither contact nor clearance could be proven";

@@ -66,7 +66,6 @@ bool watched(const Scene& scene, const SceneBody& a, const SceneBody& b,
   if (!a.collision || !b.collision || a.body.link == b.body.link) return false;
   const Role ra = a.body.role, rb = b.body.role;
   if (ra == Role::part || rb == Role::part) return false;
-  if (is_tool(ra) && is_tool(rb)) return false;
   // The tool against the stock of the moment: cutting.h.
   if (tool_and_stock == ToolAndStock::left_out &&
       ((is_tool(ra) && rb == Role::stock) || (is_tool(rb) && ra == Role::stock)))

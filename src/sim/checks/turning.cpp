@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <map>
 #include <numbers>
 
 #include "sim/checks/cut_tape.h"
@@ -80,15 +81,13 @@ class TurningTape {
   bool good() const { return file_ != nullptr; }
 
   bool add(const stock::TurningMove& move, double t0, double t1) {
-    if (sections_.empty() || last_ != move.section) {
-      sections_.push_back(*move.section);
-      last_ = move.section;
-    }
-    const Record record{t0, t1, {move.r0, move.z0, move.r1, move.z1}, sections_.size() - 1};
+    const auto [known, fresh] = known_.try_emplace(move.section, sections_.size());
+    if (fresh) sections_.push_back(*move.section);
+    const Record record{t0, t1, {move.r0, move.z0, move.r1, move.z1}, known->second};
     return std::fwrite(&record, sizeof record, 1, file_.get()) == 1;
   }
   /// The tool changes: its sections are no longer there.
-  void forget() { last_ = nullptr; }
+  void forget() { known_.clear(); }
 
   std::shared_ptr<std::FILE> file() const { return file_; }
   const std::vector<stock::TurningSection>& sections() const { return sections_; }
@@ -96,7 +95,7 @@ class TurningTape {
  private:
   std::shared_ptr<std::FILE> file_;
   std::vector<stock::TurningSection> sections_;
-  const stock::TurningSection* last_ = nullptr;
+  std::map<const stock::TurningSection*, std::size_t> known_;
 };
 
 namespace {
@@ -174,23 +173,37 @@ std::string TurningCheck::read_frame(const machine::Machine& machine) {
   if (raw_->link != machine.work_link() || axis.z() < 1 - 1e-9 ||
       std::hypot(origin.x(), origin.y()) > 1e-6)
     return "the stock does not stand on the axis of the spindle that turns it (X 0, Y 0)";
-  across_ = X_SM.linear() * Vec3::UnitX();
-  side_ = X_SM.linear() * Vec3::UnitY();
+  turret_->across = X_SM.linear() * Vec3::UnitX();
+  turret_->side = X_SM.linear() * Vec3::UnitY();
   return {};
+}
+
+// Makes the tool of this scene the one at hand.
+void TurningCheck::turn_to(const Scene& scene) {
+  if (turret_ && turret_->machine.get() == &scene.machine()) return;
+  for (const auto& turret : turrets_)
+    if (turret->machine.get() == &scene.machine()) {
+      turret_ = turret.get();
+      return;
+    }
+  turrets_.push_back(std::make_unique<Turret>());
+  turret_ = turrets_.back().get();
+  turret_->machine = scene.machine_ptr();
+  if (auto why = read_frame(scene.machine()); !why.empty() && given_up_.empty()) give_up(why);
 }
 
 void TurningCheck::start(const Scene& scene, const JointVector& joints, Findings& out) {
   raw_ = scene.machine().stock();
   if (!raw_) return;
-  if (auto why = read_frame(scene.machine()); !why.empty()) return give_up(why);
+  turn_to(scene);
+  turret_->joints = joints;
+  if (!given_up_.empty()) return;
   const double pitch = raw_->pitch.value_or(default_pitch(*raw_) / finer);
   auto made = initial(pitch);
   if (!made) return give_up(made.error().message);
   stock_ = std::move(*made);
   initial_volume_ = stock_->volume();
   tolerance_ = std::min(pitch / 10, 0.01);
-  machine_ = scene.machine_ptr();
-  joints_ = joints;
   if (const auto& design = scene.machine().part()) {
     // The part is cast on the lattice that a milled stock of this size has.
     auto watch = PartWatch::make(*design, *raw_, default_pitch(*raw_), out);
@@ -206,7 +219,9 @@ void TurningCheck::start(const Scene& scene, const JointVector& joints, Findings
 }
 
 void TurningCheck::scene_changed(const Step& step, const JointVector&, Findings& out) {
-  tool_read_ = false;
+  if (!raw_) return;
+  turn_to(step.scene);
+  turret_->tool_read = false;
   tell_given_up(step, out);
 }
 
@@ -218,42 +233,43 @@ std::string TurningCheck::read_insert(const tool::Tool& tool) {
   stock::TurningSection section;
   section.discs.push_back({insert->nose[0], insert->nose[1], insert->radius});
   for (const auto& [x, z] : insert->ends) section.discs.push_back({x, z, 0});
-  cutters_.push_back({name + "/insert", machine::Role::cutter, {std::move(section)}});
+  turret_->cutters.push_back({name + "/insert", machine::Role::cutter, {std::move(section)}});
   for (const tool::Block& block : tool.blocks) {
     if (block.role == tool::PieceRole::cutter) continue;
     const auto role =
         block.role == tool::PieceRole::shank ? machine::Role::shank : machine::Role::holder;
-    others_.push_back({name + "/" + block.name, role, {}, {block}});
+    turret_->others.push_back({name + "/" + block.name, role, {}, {block}});
   }
-  tip_ = -tool.offset[Axis::x] * across_ - tool.offset[Axis::z] * Vec3::UnitZ();
+  turret_->tip = -tool.offset[Axis::x] * turret_->across - tool.offset[Axis::z] * Vec3::UnitZ();
   return {};
 }
 
 std::string TurningCheck::read_tool(const Scene& scene, const Vec3& axis) {
-  cutters_.clear();
-  others_.clear();
+  turret_->cutters.clear();
+  turret_->others.clear();
   if (tape_) tape_->forget();
-  tip_ = Vec3::Zero();
-  reach_ = {};
+  turret_->tip = Vec3::Zero();
+  turret_->reach = {};
   const tool::Tool* tool = scene.tool();
-  no_tool_ = tool == nullptr;
-  if (no_tool_) {
-    cutters_.push_back({"spindle", machine::Role::cutter, {{{{0, 0, 0.5}}}}});
+  turret_->no_tool = tool == nullptr;
+  if (turret_->no_tool) {
+    turret_->cutters.push_back({"spindle", machine::Role::cutter, {{{{0, 0, 0.5}}}}});
     return {};
   }
   if (tool->pieces.empty()) return read_insert(*tool);
-  if (std::abs(axis.dot(side_)) > 1e-6) return "the tool's axis is not in the plane of X and Z";
+  if (std::abs(axis.dot(turret_->side)) > 1e-6)
+    return "the tool's axis is not in the plane of X and Z";
   for (const tool::Piece& piece : tool->pieces) {
     const bool cuts = piece.role == tool::PieceRole::cutter;
     const machine::Role role = cuts                                   ? machine::Role::cutter
                                : piece.role == tool::PieceRole::shank ? machine::Role::shank
                                                                       : machine::Role::holder;
-    (cuts ? cutters_ : others_)
+    (cuts ? turret_->cutters : turret_->others)
         .push_back({"T" + std::to_string(tool->number) + "/" + piece.name, role,
-                    sections_of(piece.profile, axis.dot(across_), axis.z())});
+                    sections_of(piece.profile, axis.dot(turret_->across), axis.z())});
     for (const ProfilePoint& p : piece.profile) {
-      reach_.radius = std::max(reach_.radius, p.r);
-      reach_.height = std::max(reach_.height, p.z);
+      turret_->reach.radius = std::max(turret_->reach.radius, p.r);
+      turret_->reach.height = std::max(turret_->reach.height, p.z);
     }
   }
   return {};
@@ -273,8 +289,8 @@ void TurningCheck::tell_given_up(const Step& step, Findings& out) {
 
 stock::TurningMove TurningCheck::in_plane(const stock::TurningSection& section,
                                           const StraightMove& move, double part) const {
-  const Vec3 from = move.from + tip_, to = from + part * (move.to - move.from);
-  return {&section, from.dot(across_), from.z(), to.dot(across_), to.z()};
+  const Vec3 from = move.from + turret_->tip, to = from + part * (move.to - move.from);
+  return {&section, from.dot(turret_->across), from.z(), to.dot(turret_->across), to.z()};
 }
 
 stock::TurningTouch TurningCheck::touch(const Solid& solid, const StraightMove& move,
@@ -346,7 +362,7 @@ void TurningCheck::tell_gouge(const Step& step, const Solid& solid, const Straig
                               const TurningGouge& gouge, double volume) {
   stock::Touch touch;
   touch.depth = gouge.depth;
-  touch.point = gouge.r * across_ + gouge.z * Vec3::UnitZ();
+  touch.point = gouge.r * turret_->across + gouge.z * Vec3::UnitZ();
   Finding f = cut_row(Kind::gouge_live, step, move, {solid.name, solid.role}, *raw_, touch.point,
                       [](double part) { return part >= 1; });
   watch_->describe(f, solid.name);
@@ -368,11 +384,11 @@ void TurningCheck::tell_axial(const Step& step, const StraightMove& move, const 
   cut.t0 = time_at(step, move.s0);
   cut.t1 = time_at(step, move.s1);
   const auto joints = step.motion.at(0.5 * (cut.t0 + cut.t1));
-  cut.joints = joints ? *joints : joints_;
-  const Pose X_MS = stock_at_rest(*machine_, *raw_, cut.joints);
+  cut.joints = joints ? *joints : turret_->joints;
+  const Pose X_MS = stock_at_rest(*turret_->machine, *raw_, cut.joints);
   cut.way = (move.to - move.from).norm();
   if (!(cut.way > 0) || !(cut.t1 > cut.t0)) return;
-  cut.point_part = 0.5 * (move.from + move.to) + tip_;
+  cut.point_part = 0.5 * (move.from + move.to) + turret_->tip;
   cut.point = X_MS * cut.point_part;
   cut.feed = X_MS.linear() * (move.to - move.from) / cut.way;
   cut.axis = X_MS.linear() * move.axis;
@@ -382,7 +398,7 @@ void TurningCheck::tell_axial(const Step& step, const StraightMove& move, const 
 }
 
 std::optional<Kind> TurningCheck::forbidden(const Step& step) const {
-  if (no_tool_) return Kind::no_tool_cut;
+  if (turret_->no_tool) return Kind::no_tool_cut;
   if (is_rapid(step)) return Kind::rapid_cut;
   if (step.segment.spindle_rpm == 0) return Kind::spindle_stopped_cut;
   return std::nullopt;
@@ -390,43 +406,44 @@ std::optional<Kind> TurningCheck::forbidden(const Step& step) const {
 
 void TurningCheck::step(const Step& step, Findings& out) {
   if (!raw_) return;
+  turn_to(step.scene);
   t_end_ = step.segment.t_end();
-  if (const auto end = step.motion.at(step.motion.t1())) joints_ = *end;
+  if (const auto end = step.motion.at(step.motion.t1())) turret_->joints = *end;
   if (!given_up_.empty()) return tell_given_up(step, out);
   if (std::holds_alternative<plan::Hold>(step.segment.path)) return;
   if (std::holds_alternative<canon::Probe>(step.segment.command.action)) return;
   moves_.clear();
   rows_.clear();
-  if (!straight_moves(step, *raw_, reach_, tolerance_, moves_)) {
+  if (!straight_moves(step, *raw_, turret_->reach, tolerance_, moves_)) {
     give_up("the way of the tool over the stock can't be told");
     return tell_given_up(step, out);
   }
   if (moves_.empty()) return;
-  if (!tool_read_) tool_problem_ = read_tool(step.scene, moves_.front().axis);
-  tool_read_ = true;
+  if (!turret_->tool_read) turret_->tool_problem = read_tool(step.scene, moves_.front().axis);
+  turret_->tool_read = true;
   look_at(step, out);
   rows_.hand_over(out);
 }
 
 void TurningCheck::look_at(const Step& step, Findings& out) {
   const std::optional<Kind> kind = forbidden(step);
-  if (!tool_problem_.empty()) {
+  if (!turret_->tool_problem.empty()) {
     if (kind == Kind::rapid_cut || kind == Kind::spindle_stopped_cut) return;
-    give_up(tool_problem_);
+    give_up(turret_->tool_problem);
     return tell_given_up(step, out);
   }
   double volume = 0;
   for (const StraightMove& move : moves_) {
-    if (std::abs((move.from + tip_).dot(side_)) > off_centre ||
-        std::abs((move.to + tip_).dot(side_)) > off_centre) {
+    if (std::abs((move.from + turret_->tip).dot(turret_->side)) > off_centre ||
+        std::abs((move.to + turret_->tip).dot(turret_->side)) > off_centre) {
       give_up("the tool is not at the height of the spindle's axis");
       return tell_given_up(step, out);
     }
     const bool rises = (move.to - move.from).dot(move.axis) > 0;
     if (rises)
-      for (const Solid& solid : others_) ask(step, move, solid);
-    for (const Solid& solid : cutters_) {
-      if (step.segment.sync && !no_tool_) {  // a thread is no body of revolution
+      for (const Solid& solid : turret_->others) ask(step, move, solid);
+    for (const Solid& solid : turret_->cutters) {
+      if (step.segment.sync && !turret_->no_tool) {  // a thread is no body of revolution
         if (takes(touch(solid, move)))
           give_up("`" + solid.name + "` cuts a thread, of which there is no model");
       } else if (kind)
@@ -435,10 +452,10 @@ void TurningCheck::look_at(const Step& step, Findings& out) {
         volume += cut(step, solid, move);
     }
     if (!rises)
-      for (const Solid& solid : others_) ask(step, move, solid);
+      for (const Solid& solid : turret_->others) ask(step, move, solid);
     if (!given_up_.empty()) return tell_given_up(step, out);
   }
-  if (listener_) cuts_.hand_over(step, *raw_, across_, stock_->pitch(), *listener_);
+  if (listener_) cuts_.hand_over(step, *raw_, turret_->across, stock_->pitch(), *listener_);
   if (!kind && !step.segment.sync && volume == 0 && plan::length(step.segment.path) > longest_air)
     add_air_cut(step, out);
 }
@@ -480,15 +497,15 @@ bool TurningCheck::ask(const Step& step, const StraightMove& move, const Solid& 
 Finding TurningCheck::row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
                           const stock::TurningTouch& touch_) const {
   return cut_row(kind, step, move, {solid.name, solid.role}, *raw_,
-                 touch_.r * across_ + touch_.z * Vec3::UnitZ(),
+                 touch_.r * turret_->across + touch_.z * Vec3::UnitZ(),
                  [&](double part) { return takes(touch(solid, move, part)); });
 }
 
 void TurningCheck::compare_with_part(Summary& summary, Findings& out) {
   if (!no_part_.empty()) summary.unchecked.push_back("the result against the part: " + no_part_);
   if (watch_)
-    summary.part = watch_->compare(*stock_, at_end(*machine_, *raw_, joints_),
-                                   end_of_run(t_end_, joints_), out);
+    summary.part = watch_->compare(*stock_, at_end(*turret_->machine, *raw_, turret_->joints),
+                                   end_of_run(t_end_, turret_->joints), out);
 }
 
 void TurningCheck::finish(Summary& summary, Findings& out) {

@@ -33,6 +33,10 @@ class TurningCheck final : public Check {
   void scene_changed(const Step& step, const JointVector& joints, Findings& out) override;
   void finish(Summary& summary, Findings& out) override;
 
+  /// From now on it is not known what is left of the stock.
+  void lose(const std::string& why) {
+    if (given_up_.empty()) give_up(why);
+  }
   /// Who is told of the cuts; outlives the run.
   void listen(CutListener& listener) { listener_ = &listener; }
   /// Null when there is none, or not all that was cut is known.
@@ -74,6 +78,7 @@ class TurningCheck final : public Check {
   void tell_axial(const Step& step, const StraightMove& move, const Solid& solid);
   Finding row(Kind kind, const Step& step, const StraightMove& move, const Solid& solid,
               const stock::TurningTouch& touch) const;
+  void turn_to(const Scene& scene);
   void compare_with_part(Summary& summary, Findings& out);
   void give_up(const std::string& why);
   void tell_given_up(const Step& step, Findings& out);
@@ -83,18 +88,24 @@ class TurningCheck final : public Check {
   std::optional<stock::TurnedStock> stock_;
   std::unique_ptr<TurningTape> tape_;
   std::optional<PartWatch> watch_;
-  std::string no_part_;  ///< why the result can't be compared with the part
-  std::shared_ptr<const machine::Machine> machine_;
-  JointVector joints_;                         ///< at the end of the last step
-  double t_end_ = 0;                           ///< of it, s
+  std::string no_part_;                        ///< why the result can't be compared with the part
+  double t_end_ = 0;                           ///< of the last step, s
   double initial_volume_ = 0, tolerance_ = 0;  ///< mm³, mm
   TimeBuckets<Volume> removed_when_;
-  Vec3 across_ = Vec3::UnitX(), side_ = Vec3::UnitY();  ///< of the half plane; seen from S
-  std::vector<Solid> cutters_, others_;
-  Vec3 tip_ = Vec3::Zero();  ///< of the sections' origin, seen from the tip of the moves; S
-  bool tool_read_ = false, no_tool_ = true;
-  std::string tool_problem_;  ///< why it can't be cut with
-  Reach reach_;
+  /// What belongs to one tool. Where channels cut at once each has its own, and
+  /// `turret_` is that of the step at hand.
+  struct Turret {
+    std::shared_ptr<const machine::Machine> machine;
+    JointVector joints;                                 ///< at the end of its last step
+    Vec3 across = Vec3::UnitX(), side = Vec3::UnitY();  ///< of the half plane; seen from S
+    std::vector<Solid> cutters, others;
+    Vec3 tip = Vec3::Zero();  ///< of the sections' origin, seen from the tip of the moves; S
+    bool tool_read = false, no_tool = true;
+    std::string tool_problem;  ///< why it can't be cut with
+    Reach reach;
+  };
+  std::vector<std::unique_ptr<Turret>> turrets_;
+  Turret* turret_ = nullptr;
   std::vector<StraightMove> moves_;  ///< of the step at hand
   CutRows rows_;
   CutListener* listener_ = nullptr;
