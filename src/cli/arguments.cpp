@@ -552,7 +552,7 @@ std::variant<Arguments, int> parse(int argc, char** argv) {
                                   ? "run needs a PROGRAM, or --channel NAME=PROGRAM for each of "
                                     "several channels"
                                   : "run takes either a PROGRAM or --channel NAME=PROGRAM"),
-          "run");
+          c_run);
     run.program.set = *sets;
     run.output.fail_on = severity_of(fail_on);
     std::tie(run.width, run.height) = *pixels;

@@ -11,7 +11,8 @@ namespace {
 std::string only_program(const RunReport& report) {
   std::string out;
   for (const Input& input : report.inputs)
-    if (input.role == "program") out = input.path;
+    if (input.role == "program")
+      out = report.channels.empty() || out.empty() ? input.path : out + " + " + input.path;
   return out;
 }
 

@@ -1,0 +1,169 @@
+// Several channels at once, as a user runs them.
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+namespace aircut {
+namespace {
+
+using nlohmann::json;
+
+class Channels : public Program {
+ protected:
+  static constexpr const char* head = "G18 G21 G40 G49 G54 G80 G90 G94\nG64 P0.01\n";
+
+  // Two programs on the lathe with two turrets; result.json.
+  json twin(const std::string& upper, const std::string& lower, const std::string& more = "") {
+    put("upper.ngc", head + upper + "M30\n");
+    put("lower.ngc", head + lower + "M30\n");
+    last_ = aircut("run -m lathe-twin-turret --channel upper=" + path("upper.ngc") +
+                   " --channel lower=" + path("lower.ngc") + " --format json " + more);
+    return json::parse(last_.out, nullptr, false);
+  }
+  static std::vector<json> of_kind(const json& result, const std::string& kind) {
+    std::vector<json> out;
+    for (const json& finding : result["findings"])
+      if (finding["kind"] == kind) out.push_back(finding);
+    return out;
+  }
+  Outcome last_;
+};
+
+const char* const drill_in_and_out = "T3 M6\nG43 H3\nG0 X0 Z40\nG4 P1\nG53 G0 X200\nG53 G0 Z0\n";
+
+TEST_F(Channels, TwoTurretsAtOnePlaceAtOneTimeCollide) {
+  const json result = twin(drill_in_and_out, drill_in_and_out);
+  const auto hits = of_kind(result, "collision");
+  ASSERT_FALSE(hits.empty()) << last_.out << last_.err;
+  EXPECT_EQ(last_.code, 1);
+  bool tools = false;
+  for (const json& hit : hits) {
+    EXPECT_NE(hit["channel"], hit["other_channel"]);
+    EXPECT_EQ(hit["place"]["line"], 5);
+    EXPECT_EQ(hit["other_place"]["line"], 5);
+    tools = tools || (hit["body_a"].get<std::string>().starts_with("upper:T3/") &&
+                      hit["body_b"].get<std::string>().starts_with("lower:T3/"));
+  }
+  EXPECT_TRUE(tools);
+}
+
+TEST_F(Channels, TheSameProgramsAreClearWhenOneWaitsForTheOther) {
+  const json result = twin(std::string(drill_in_and_out) + "M101 P12\n",
+                           std::string("M101 P12\n") + drill_in_and_out);
+  EXPECT_EQ(result["verdict"], "pass") << last_.out;
+  const json& channels = result["channels"];
+  ASSERT_EQ(channels.size(), 2u);
+  EXPECT_EQ(channels[0]["channel"], "upper");
+  EXPECT_EQ(channels[0]["waiting_s"], 0);
+  // The lower one waits for as long as the upper one works, and works as long.
+  EXPECT_NEAR(channels[1]["waiting_s"].get<double>(), channels[0]["cycle_time_s"].get<double>(),
+              1e-6);
+  EXPECT_NEAR(channels[1]["cycle_time_s"].get<double>(),
+              2 * channels[0]["cycle_time_s"].get<double>(), 0.01);
+}
+
+TEST_F(Channels, WaitsThatNobodyMeetsAreToldAtBothLines) {
+  const json result = twin("M101\n", "G4 P1\nM102\n");
+  const auto found = of_kind(result, "wait_deadlock");
+  ASSERT_EQ(found.size(), 2u) << last_.out;
+  EXPECT_EQ(last_.code, 1);
+  EXPECT_EQ(found[0]["place"]["line"], 3);
+  EXPECT_EQ(found[0]["other_place"]["line"], 4);
+  EXPECT_EQ(found[1]["place"]["line"], 4);
+  EXPECT_FALSE(result["unchecked"].empty());
+}
+
+TEST_F(Channels, AWaitForAChannelThatHasEndedIsADeadlock) {
+  const json result = twin("M101 P12\n", "G4 P1\n");
+  const auto found = of_kind(result, "wait_deadlock");
+  ASSERT_EQ(found.size(), 1u) << last_.out;
+  EXPECT_NE(found[0]["message"].get<std::string>().find("lower has ended"), std::string::npos);
+}
+
+TEST_F(Channels, OneSpindleAtTwoSpeedsIsAConflict) {
+  const json result = twin("S900 M3\nG4 P2\nM5\n", "G4 P1\nS1200 M3\nG4 P2\nM5\n");
+  const auto found = of_kind(result, "spindle_conflict");
+  ASSERT_FALSE(found.empty()) << last_.out;
+  EXPECT_EQ(found[0]["value"], 900);
+  EXPECT_EQ(found[0]["limit"], 1200);
+  EXPECT_EQ(found[0]["place"]["line"], 4);
+  EXPECT_EQ(found[0]["other_place"]["line"], 5);
+  EXPECT_TRUE(
+      of_kind(twin("S900 M3\nG4 P2\nM101\nM5\n", "S900 M3\nG4 P2\nM101\nM5\n"), "spindle_conflict")
+          .empty());
+}
+
+TEST_F(Channels, OneAxisThatTwoChannelsMoveIsAConflict) {
+  const json result = twin("G0 C90\nG0 C0\n", "G0 C90\nG0 C0\n");
+  const auto found = of_kind(result, "axis_conflict");
+  ASSERT_FALSE(found.empty()) << last_.out;
+  EXPECT_EQ(found[0]["joint"], "C");
+  EXPECT_TRUE(
+      of_kind(twin("G0 C90\nG0 C0\nM101\n", "M101\nG0 C90\nG0 C0\n"), "axis_conflict").empty());
+}
+
+TEST_F(Channels, ARefusedBlockOfOneStopsAll) {
+  const json result = twin("G4 P1\nG0 Q9\nG4 P1\n", "G4 P5\nG0 X100\n");
+  EXPECT_EQ(last_.code, 1);
+  ASSERT_GE(result["unchecked"].size(), 2u) << last_.out;
+  EXPECT_EQ(result["timing"]["cycle_time_s"], 1);
+}
+
+TEST_F(Channels, AChannelMovesAsItDoesAlone) {
+  const std::string one = "programs/lathe-twin-upper.ngc", two = "programs/lathe-twin-lower.ngc";
+  ASSERT_EQ(
+      aircut("run -q " + one + " -m lathe-twin-turret --frames none --log " + path("alone.csv"))
+          .code,
+      0);
+  const Outcome both = aircut("run -q -m lathe-twin-turret --channel 1=" + one + " --check limits" +
+                              " --channel lower=" + two + " --frames none -o " + path("out"));
+  ASSERT_TRUE(both.code == 0 || both.code == 2) << both.out << both.err;
+  // Row by row, without the header and the waits for nobody.
+  const Outcome diff = aircut("log diff " + path("alone.csv") + " " + path("out/joints-upper.csv") +
+                              " --tolerance 1e-6");
+  EXPECT_EQ(diff.code, 0) << diff.out << diff.err;
+}
+
+TEST_F(Channels, TwoTurretsTurnOneBar) {
+  put("setup.toml",
+      "schema = 1\n[stock]\ncylinder = [60.0, 123.0]\nplace = [0.0, 0.0, -625.0]\n"
+      "replaces = \"work\"\n");
+  const Outcome run = aircut(
+      "run -m lathe-twin-turret --channel upper=programs/channels/twin-upper.ngc"
+      " --channel lower=programs/channels/twin-lower.ngc --format json --setup " +
+      path("setup.toml"));
+  const json result = json::parse(run.out, nullptr, false);
+  EXPECT_EQ(result["verdict"], "pass") << run.out << run.err;
+  // From radius 30 to 27.5 over 28; the lift at the end of each pass takes a little more.
+  const double taken = M_PI * (30. * 30 - 27.5 * 27.5) * 28;
+  EXPECT_NEAR(result["stock"]["removed_mm3"].get<double>(), taken, 0.02 * taken);
+}
+
+TEST_F(Channels, ALatheWithOpposedSpindlesWorksOnBothParts) {
+  const Outcome run = aircut(
+      "run -q -m lathe-opposed --channel main-upper=programs/lathe-opposed.ngc"
+      " --channel sub-lower=programs/lathe-opposed-sub.ngc");
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+}
+
+TEST_F(Channels, ASwissLatheTurnsInFrontAndDrillsBehind) {
+  const Outcome run = aircut(
+      "run -q -m lathe-swiss --channel gang=programs/lathe-swiss.ngc"
+      " --channel back=programs/lathe-swiss-back.ngc");
+  EXPECT_EQ(run.code, 0) << run.out << run.err;
+}
+
+TEST_F(Channels, WrongArgumentsAreToldBeforeAnythingMoves) {
+  const std::string one = "programs/lathe-twin-upper.ngc";
+  EXPECT_TRUE(aircut("run -m lathe-twin-turret --channel uper=" + one).says("upper"));
+  EXPECT_TRUE(aircut("run -m lathe-twin-turret --channel " + one).says("NAME=PROGRAM"));
+  EXPECT_TRUE(aircut("run -m lathe-twin-turret " + one + " --channel upper=" + one).says("either"));
+  EXPECT_TRUE(aircut("run -m lathe-slant --channel upper=" + one).says("no channels"));
+  EXPECT_TRUE(aircut("run -m lathe-twin-turret --channel 1=" + one + " --channel upper=" + one)
+                  .says("twice"));
+  EXPECT_TRUE(aircut("run -m lathe-twin-turret --channel 1=" + one + " --overrides x.csv")
+                  .says("--overrides"));
+}
+
+}  // namespace
+}  // namespace aircut
