@@ -270,9 +270,8 @@ int run_channels(const RunArguments& a) {
   report.summary.verdict = sim::judge(report.findings, report.summary, judged, a.output.fail_on);
 
   if (in_folder) {
-    for (const log::CsvJointLog* one : {log.get()})
-      if (one)
-        if (auto written = one->result(); !written) return fail(written.error());
+    if (log)
+      if (auto written = log->result(); !written) return fail(written.error());
     for (const Running& r : running) {
       if (auto written = r.lines->result(); !written) return fail(written.error());
       if (r.log)

@@ -29,27 +29,29 @@ class Channels : public Program {
   Outcome last_;
 };
 
-const char* const drill_in_and_out = "T3 M6\nG43 H3\nG0 X0 Z40\nG4 P1\nG53 G0 X200\nG53 G0 Z0\n";
+const char* const in_and_out = "T3 M6\nG43 H3\nG0 X0 Z40\nG4 P1\nG53 G0 X200\nG53 G0 Z0\n";
 
 TEST_F(Channels, TwoTurretsAtOnePlaceAtOneTimeCollide) {
-  const json result = twin(drill_in_and_out, drill_in_and_out);
+  const json result = twin(in_and_out, in_and_out);
   const auto hits = of_kind(result, "collision");
   ASSERT_FALSE(hits.empty()) << last_.out << last_.err;
   EXPECT_EQ(last_.code, 1);
-  bool tools = false;
+  bool on_the_way_in = false;
   for (const json& hit : hits) {
-    EXPECT_NE(hit["channel"], hit["other_channel"]);
-    EXPECT_EQ(hit["place"]["line"], 5);
-    EXPECT_EQ(hit["other_place"]["line"], 5);
-    tools = tools || (hit["body_a"].get<std::string>().starts_with("upper:T3/") &&
-                      hit["body_b"].get<std::string>().starts_with("lower:T3/"));
+    EXPECT_EQ(hit["body_a"], "turret1");
+    EXPECT_EQ(hit["body_b"], "turret2");
+    EXPECT_EQ(hit["channel"], "upper");
+    EXPECT_EQ(hit["other_channel"], "lower");
+    on_the_way_in =
+        on_the_way_in || (hit["place"]["line"] == 5 && hit["other_place"]["line"] == 5 &&
+                          hit["other_place"]["file"].get<std::string>().ends_with("lower.ngc"));
   }
-  EXPECT_TRUE(tools);
+  EXPECT_TRUE(on_the_way_in);
 }
 
 TEST_F(Channels, TheSameProgramsAreClearWhenOneWaitsForTheOther) {
-  const json result = twin(std::string(drill_in_and_out) + "M101 P12\n",
-                           std::string("M101 P12\n") + drill_in_and_out);
+  const json result =
+      twin(std::string(in_and_out) + "M101 P12\n", std::string("M101 P12\n") + in_and_out);
   EXPECT_EQ(result["verdict"], "pass") << last_.out;
   const json& channels = result["channels"];
   ASSERT_EQ(channels.size(), 2u);
@@ -115,9 +117,12 @@ TEST_F(Channels, AChannelMovesAsItDoesAlone) {
       aircut("run -q " + one + " -m lathe-twin-turret --frames none --log " + path("alone.csv"))
           .code,
       0);
-  const Outcome both = aircut("run -q -m lathe-twin-turret --channel 1=" + one + " --check limits" +
-                              " --channel lower=" + two + " --frames none -o " + path("out"));
-  ASSERT_TRUE(both.code == 0 || both.code == 2) << both.out << both.err;
+  const Outcome both =
+      aircut("run -m lathe-twin-turret --channel 1=" + one + " --channel lower=" + two +
+             " --check limits --frames none --format json -o " + path("out"));
+  // Each has its own idea of the spindle's speed, which moves no axis.
+  const json result = json::parse(both.out, nullptr, false);
+  for (const json& finding : result["findings"]) EXPECT_EQ(finding["kind"], "spindle_conflict");
   // Row by row, without the header and the waits for nobody.
   const Outcome diff = aircut("log diff " + path("alone.csv") + " " + path("out/joints-upper.csv") +
                               " --tolerance 1e-6");
