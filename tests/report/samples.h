@@ -183,11 +183,11 @@ class Samples {
     out.push_back(finding(Kind::path_deviation, 5, "the planned path is 0.0200 mm off"));
     out.push_back(finding(Kind::tool_missing, 2, "T4 is not in the tool table"));
     out.push_back(finding(Kind::not_checked, 2, "T4 has no geometry"));
+    out.back().makes_unknown = true;
+    out.push_back(finding(Kind::probe_contact, 3, "probe `T4/probe` touches `vise`"));
     out.push_back(finding(Kind::spindle_conflict, 2, "two channels command one spindle"));
     out.push_back(finding(Kind::axis_conflict, 2, "two channels move the axis C"));
     out.push_back(finding(Kind::wait_deadlock, 2, "channel upper waits for ever"));
-    out.back().makes_unknown = true;
-    out.push_back(finding(Kind::probe_contact, 3, "probe `T4/probe` touches `vise`"));
     out.push_back(finding(Kind::probe_missed, 4, "the probing move ends without a touch"));
     return out;
   }
