@@ -233,7 +233,7 @@ int run_channels(const RunArguments& a) {
       outputs.push_back(name);
     }
     if (frames->spec.any()) {
-      if (const auto ok = report::check_bodies(*job.machine, *frames); !ok) return fail(ok.error());
+      if (const auto ok = report::check_view(*job.machine, frames->view); !ok) return fail(ok.error());
       pictures = std::make_unique<report::FrameMaker>(job.machine, job.tools, *frames, run.seats());
       run.add_observer(*pictures);
     }
