@@ -8,13 +8,15 @@ namespace aircut {
 namespace {
 
 constexpr std::size_t most_at_once = 1u << 30;  // zlib counts in 32 bits
+constexpr int effort = 5;  // half the time of zlib's own choice, 6, for a hundredth more bytes
 
 }  // namespace
 
 std::string deflated(std::string_view bytes) {
   z_stream stream{};
   // Only a lack of memory can fail it.
-  if (deflateInit2(&stream, 6, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK) return {};
+  if (deflateInit2(&stream, effort, Z_DEFLATED, -MAX_WBITS, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+    return {};
   std::string out;
   std::string part(1 << 16, '\0');
   std::size_t given = 0;

@@ -21,6 +21,7 @@
 #include <limits>
 #include <queue>
 
+#include "collide/budget.h"
 #include "collide/collide.h"
 #include "collide/mesh_impl.h"
 
@@ -86,11 +87,11 @@ class Proof {
   // below 0 when nothing is known.
 
   /// What is left of an earlier proof may be enough for the whole interval.
-  bool covered_by(const Budget& budget) {
+  bool covered_by(Budget budget) {
     if (budget.distance <= far_floor()) return false;
     const auto travel = motion_.travel(t0_, t1_);
-    if (!travel || !(padded(*travel) <= budget.distance - far_floor())) return false;
-    low_ = clear_low_ = budget.distance - padded(*travel);
+    if (!travel || !spend(budget, *travel, far_floor())) return false;
+    low_ = clear_low_ = budget.distance;
     return true;
   }
 
@@ -113,7 +114,7 @@ class Proof {
     }
   }
 
-  double far_floor() const { return std::max(margin_, near_floor()); }
+  double far_floor() const { return collide::far_floor(margin_, resolution_); }
   double near_floor() const { return 0.5 * resolution_; }
 
   /// Goes on as far as the known distance carries, at least `resolution/2`.

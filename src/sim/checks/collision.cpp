@@ -5,11 +5,13 @@
 // then left out, since nothing further can be said of it.
 //
 // Each pair keeps a budget of proven distance, so a step in which nothing is near costs no query.
+// Where only linear couples lie between two links, all of their bodies move by the same way.
 
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include "collide/budget.h"
 #include "sim/checks/contact.h"
 #include "sim/checks/pairs.h"
 #include "sim/sim.h"
@@ -107,8 +109,19 @@ class CollisionCheck final : public Check {
       return;
     near_at_rest_.clear();  // the motion begins there
     PoseCache cache(step.scene.machine(), step.motion);
-    for (Pair& pair : pairs_)
-      if (!pair.left_out) check_pair(step, pair, cache, out);
+    const auto known = ways_of(step, cache);
+    const double floor = collide::far_floor(
+        options_.near, std::max(step.scene.machine().collision_tolerance(), 1e-6));
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      Pair& pair = pairs_[i];
+      if (pair.left_out) continue;
+      if (known && way_of_[i] && !pair.touching &&
+          collide::spend(pair.budget, travels_[*way_of_[i]], floor)) {
+        clear_time_ += step.motion.t1() - step.motion.t0();
+        continue;
+      }
+      check_pair(step, pair, cache, out);
+    }
   }
 
   void finish(Summary& summary, Findings& out) override {
@@ -134,6 +147,56 @@ class CollisionCheck final : public Check {
     exclusions_ = std::move(watched.exclusions);
     most_pairs_ = std::max(most_pairs_, pairs_.size());
     most_bodies_ = std::max(most_bodies_, scene.bodies().size());
+    ways_.clear();
+    way_of_.clear();
+    for (const Pair& pair : pairs_) {
+      auto way = linear_way(scene.machine(), scene.bodies()[pair.a].body.link,
+                            scene.bodies()[pair.b].body.link);
+      way_of_.push_back(std::nullopt);
+      if (!way) continue;
+      way_of_.back() =
+          static_cast<std::size_t>(std::find(ways_.begin(), ways_.end(), *way) - ways_.begin());
+      if (*way_of_.back() == ways_.size()) ways_.push_back(std::move(*way));
+    }
+  }
+
+  // The driven joints between two links, when all that moves between them is linear.
+  static std::optional<std::vector<std::size_t>> linear_way(const machine::Machine& machine,
+                                                            machine::LinkId a, machine::LinkId b) {
+    const auto chain = [&](machine::LinkId link) {  // couples up to the bed
+      std::vector<int> out;
+      for (; link != machine::bed_link;
+           link = machine.links()[static_cast<std::size_t>(machine::index(link))].parent)
+        out.push_back(machine.links()[static_cast<std::size_t>(machine::index(link))].joint);
+      return out;
+    };
+    std::vector<int> up = chain(a), down = chain(b);
+    while (!up.empty() && !down.empty() && up.back() == down.back()) {
+      up.pop_back();
+      down.pop_back();
+    }
+    up.insert(up.end(), down.rbegin(), down.rend());
+    std::vector<std::size_t> out;
+    for (const int couple : up) {
+      const machine::Joint& joint = machine.tree()[static_cast<std::size_t>(couple)];
+      if (joint.driven < 0 && joint.held) continue;
+      if (joint.kind != machine::JointKind::linear || joint.driven < 0) return std::nullopt;
+      out.push_back(static_cast<std::size_t>(joint.driven));
+    }
+    return out;
+  }
+
+  // How far bodies of each of these ways move against one another in the step; false: not known.
+  bool ways_of(const Step& step, PoseCache& cache) {
+    const std::vector<double>* travel = cache.travel(step.motion.t0(), step.motion.t1());
+    if (!travel) return false;
+    travels_.clear();
+    for (const std::vector<std::size_t>& way : ways_) {
+      double sum = 0;
+      for (const std::size_t joint : way) sum += (*travel)[joint];
+      travels_.push_back(sum);
+    }
+    return true;
   }
 
   // All pairs at a pose that does not change: the start, or a new tool in place.
@@ -376,6 +439,9 @@ class CollisionCheck final : public Check {
   };
   std::vector<NearAtRest> near_at_rest_;  ///< where the machine stands and has not moved since
   std::vector<Pair> pairs_;
+  std::vector<std::vector<std::size_t>> ways_;      ///< of pairs with linear couples: joints
+  std::vector<std::optional<std::size_t>> way_of_;  ///< each pair's among ways_
+  std::vector<double> travels_;                     ///< of each way in the step at hand, mm
   std::vector<std::string> exclusions_;
   std::size_t most_pairs_ = 0, most_bodies_ = 0, detailed_ = 0;
   collide::ProofCost cost_;
