@@ -10,7 +10,7 @@ CLI::App* add_job(CLI::App& app, JobArguments& a) {
       "job",
       "run the operations of a job one after the other, each with the stock that one before left;\n"
       "one verdict over all\n\n"
-      "  aircut job programs/two-sides.job.toml -o out");
+      "  aircut job programs/jobs/bracket.job.toml -o out");
   c->add_option("JOB", a.file, "the operations (docs/cli.md)")->required();
   c->add_option("-o,--out", a.folder, "folder; each operation gets one of its own in it")
       ->type_name("DIR");

@@ -29,7 +29,8 @@ class Channels : public Program {
   Outcome last_;
 };
 
-const char* const in_and_out = "T3 M6\nG43 H3\nG0 X0 Z40\nG4 P1\nG53 G0 X200\nG53 G0 Z0\n";
+// Far in: with both turrets there, they overlap by some millimetres.
+const char* const in_and_out = "T1 M6\nG43 H1\nG0 X25 Z40\nG4 P1\nG53 G0 X200\nG53 G0 Z0\n";
 
 TEST_F(Channels, TwoTurretsAtOnePlaceAtOneTimeCollide) {
   const json result = twin(in_and_out, in_and_out);

@@ -58,6 +58,18 @@ TEST_F(JobCommand, CutsWhatTheOperationBeforeLeftFromTheOtherSide) {
               back, 0.1 * back);
 }
 
+TEST_F(JobCommand, MakesTheShippedBracketFromBothSides) {
+  const fs::path programs = fs::path(AIRCUT_SOURCE_DIR) / "programs";
+  fs::create_directories(path("jobs"));
+  for (const char* name : {"bracket.ngc", "mill3-block.setup.toml"})
+    fs::copy(programs / name, path(name));
+  for (const auto& file : fs::directory_iterator(programs / "jobs"))
+    if (file.path().extension() != ".stock") fs::copy(file.path(), path("jobs"));
+  const Outcome r = aircut("job " + path("jobs/bracket.job.toml") + " -q");
+  EXPECT_EQ(r.code, 0) << r.out << r.err;
+  EXPECT_TRUE(r.says("pass     back")) << r.out;
+}
+
 TEST_F(JobCommand, RunsNothingOnAStockThatWasNotSaved) {
   put("one.ngc", begin + "G0 X-70 Y10 Q\n" + end);
   put("one.stock", "what an earlier day has left");
