@@ -131,13 +131,10 @@ TEST_F(Channels, AChannelMovesAsItDoesAlone) {
 }
 
 TEST_F(Channels, TwoTurretsTurnOneBar) {
-  put("setup.toml",
-      "schema = 1\n[stock]\ncylinder = [60.0, 123.0]\nplace = [0.0, 0.0, -625.0]\n"
-      "replaces = \"work\"\n");
   const Outcome run = aircut(
       "run -m lathe-twin-turret --channel upper=programs/channels/twin-upper.ngc"
-      " --channel lower=programs/channels/twin-lower.ngc --format json --setup " +
-      path("setup.toml"));
+      " --channel lower=programs/channels/twin-lower.ngc --format json"
+      " --setup programs/channels/twin.setup.toml");
   const json result = json::parse(run.out, nullptr, false);
   EXPECT_EQ(result["verdict"], "pass") << run.out << run.err;
   // From radius 30 to 27.5 over 28; the lift at the end of each pass takes a little more.

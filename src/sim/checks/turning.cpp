@@ -170,6 +170,8 @@ std::string TurningCheck::read_frame(const machine::Machine& machine) {
     return "on a machine whose spindle turns the work the stock must be a cylinder or a tube";
   const Pose X_SM = raw_->X_LS.inverse(Eigen::Isometry) * machine.X_LM();
   const Vec3 axis = X_SM.linear() * Vec3::UnitZ(), origin = X_SM.translation();
+  if (axis.z() < -1 + 1e-9)
+    return "a turned stock has no model end for end ([stock] angles): it stands as it was made";
   if (raw_->link != machine.work_link() || axis.z() < 1 - 1e-9 ||
       std::hypot(origin.x(), origin.y()) > 1e-6)
     return "the stock does not stand on the axis of the spindle that turns it (X 0, Y 0)";
