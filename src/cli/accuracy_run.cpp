@@ -29,9 +29,17 @@ Expected<void> AccuracyRun::open(Job& job, const std::string& path) {
 }
 
 Expected<void> AccuracyRun::attach(sim::Simulator& simulator, const std::string& folder) {
-  if (!along_) return {};
-  simulator.listen_to_cuts(*along_);
-  if (folder.empty()) return {};
+  if (along_) simulator.listen_to_cuts(*along_);
+  return write_rows(folder);
+}
+
+Expected<void> AccuracyRun::attach(sim::ChannelRun& run, const std::string& folder) {
+  if (along_) run.listen_to_cuts(*along_);
+  return write_rows(folder);
+}
+
+Expected<void> AccuracyRun::write_rows(const std::string& folder) {
+  if (!along_ || folder.empty()) return {};
   along_->keep_places();
   return along_->write_to(folder + "/accuracy.csv");
 }

@@ -5,6 +5,7 @@
 #include "cli/job.h"
 #include "render/render.h"
 #include "report/accuracy_along.h"
+#include "sim/channels.h"
 #include "sim/cuts.h"
 
 namespace aircut::cli {
@@ -15,6 +16,7 @@ class AccuracyRun {
   Expected<void> open(Job& job, const std::string& path);
   /// Listens to the cuts; with a folder, a row of each goes to its accuracy.csv.
   Expected<void> attach(sim::Simulator& simulator, const std::string& folder);
+  Expected<void> attach(sim::ChannelRun& run, const std::string& folder);
   /// Adds findings, what is not known, and the results to the report.
   void finish(report::RunReport& report);
   /// What is wrong with the file: shown, but nothing that the verdict on collisions hangs on.
@@ -28,6 +30,7 @@ class AccuracyRun {
   bool on() const { return !path_.empty(); }
 
  private:
+  Expected<void> write_rows(const std::string& folder);
   Expected<void> draw(const std::string& folder, bool over_time, report::RunReport& report) const;
 
   std::string path_, sha256_;

@@ -96,9 +96,9 @@ void print_error(const Diagnostic& diagnostic, When color);
 
 /// What a run tells whoever goes on with it.
 struct RunOutcome {
-  bool finished = false;  ///< false: its inputs can't be read, or an output can't be written
+  bool finished = false;     ///< false: its inputs can't be read, or an output can't be written
   bool stock_saved = false;  ///< of a program that reached its end
-  double cycle_time = 0;  ///< s
+  double cycle_time = 0;     ///< s
 };
 int run_command(const RunArguments& arguments, RunOutcome* outcome = nullptr);
 int job_command(const JobArguments& arguments);

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <deque>
 
+#include "cli/accuracy_run.h"
 #include "cli/exit_code.h"
 #include "cli/job.h"
 #include "cli/print_report.h"
@@ -34,7 +35,6 @@ struct Running {
 // Options that are for a run of one channel only; empty: none is there.
 std::string not_with_channels(const RunArguments& a) {
   if (!a.overrides.empty()) return "--overrides";
-  if (!a.accuracy.empty()) return "--accuracy";
   if (!a.save_stock.empty()) return "--save-stock";
   if (!a.part.empty() && a.part != "null") return "--part";
   if (!a.log.empty() && a.log != "null") return "--log";
@@ -190,6 +190,9 @@ int run_channels(const RunArguments& a) {
   if (!open_channels(job, a.program, names, machines)) return refuse(job.diagnostics, a.output);
   if (asked_for(a.checks).cut)
     if (auto fits = sim::stock_fits(*job.machine); !fits) return fail(fits.error());
+  AccuracyRun accuracy;
+  if (!a.accuracy.empty())
+    if (auto opened = accuracy.open(job, a.accuracy); !opened) return fail(opened.error());
   if (in_folder)
     if (auto ready = prepare_folder(a.folder, a.force); !ready) return fail(ready.error());
 
@@ -233,11 +236,13 @@ int run_channels(const RunArguments& a) {
       outputs.push_back(name);
     }
     if (frames->spec.any()) {
-      if (const auto ok = report::check_view(*job.machine, frames->view); !ok) return fail(ok.error());
+      if (const auto ok = report::check_view(*job.machine, frames->view); !ok)
+        return fail(ok.error());
       pictures = std::make_unique<report::FrameMaker>(job.machine, job.tools, *frames, run.seats());
       run.add_observer(*pictures);
     }
   }
+  if (auto ready = accuracy.attach(run, a.folder); !ready) return fail(ready.error());
   listen_to_signals();
   sim::RunOptions options;
   options.stop_requested = [] { return signal_that_came() != 0; };
@@ -253,6 +258,7 @@ int run_channels(const RunArguments& a) {
                                     r.meaning->unchecked().end());
   }
   report::RunReport report = report_of(a, job, checks, std::move(result));
+  accuracy.finish(report);
   for (std::size_t i = 0; i < running.size(); ++i) {
     const sim::ChannelTimes& times = run.times()[i];
     add_diagnostics(running[i], times, checks, report);
@@ -268,6 +274,10 @@ int run_channels(const RunArguments& a) {
   Diagnostics judged;
   for (const Diagnostic& d : report.diagnostics) judged.add(d);
   report.summary.verdict = sim::judge(report.findings, report.summary, judged, a.output.fail_on);
+  if (!report.accuracy) {
+    const auto& wrong = accuracy.file_errors();
+    report.diagnostics.insert(report.diagnostics.end(), wrong.begin(), wrong.end());
+  }
 
   if (in_folder) {
     if (log)
@@ -283,6 +293,11 @@ int run_channels(const RunArguments& a) {
         return fail(ok.error());
       report.outputs.push_back("part.stl");
     }
+    if (auto ok = accuracy.write(a.folder, report); !ok) return fail(ok.error());
+    if (auto ok = accuracy.write_part(
+            a.folder, run.part(), pictures ? std::optional(frames->size) : std::nullopt, report);
+        !ok)
+      return fail(ok.error());
     if (pictures && signal_that_came() == 0) {
       auto history = run.stock_history();
       if (!history) return fail(history.error());

@@ -17,6 +17,7 @@
 #include <cmath>
 
 #include "plan/part.h"
+#include "sim/channel_cuts.h"
 #include "sim/channel_parts.h"
 #include "sim/checks/turning.h"
 
@@ -109,6 +110,10 @@ ChannelRun::~ChannelRun() = default;
 
 void ChannelRun::add_observer(std::size_t channel, Observer& observer) {
   channels_[channel]->simulator->add_observer(observer);
+}
+
+void ChannelRun::listen_to_cuts(CutListener& listener) {
+  cuts_ = std::make_unique<ChannelCuts>(listener, scene_.machine());
 }
 
 std::vector<Seat> ChannelRun::seats() const { return scene_.seats(); }
@@ -331,6 +336,7 @@ void ChannelRun::start() {
   }
   if (options_.cut && whole.stock()) {
     turning_ = std::make_unique<TurningCheck>(options_);
+    if (cuts_) turning_->listen(*cuts_);
     turning_->start(scene_, joints_, findings_);
   } else if (whole.stock()) {
     unchecked_.push_back("the tools against the stock (--check without `cut`)");
@@ -496,6 +502,7 @@ void ChannelRun::cut(const Interval& at) {
                      " away from where its program has it");
     const motion::JointMotion own(*c->job.machine, segment, c->joints);
     Findings found;
+    if (cuts_) cuts_->come_from(i, *c->job.machine, c->job.joints, joints_);
     turning_->step({c->simulator->scene(), own, segment}, found);
     for (Finding& f : found.finish()) {
       f.channel = c->job.name;
@@ -505,6 +512,7 @@ void ChannelRun::cut(const Interval& at) {
       if (f.kind != Kind::air_cut) findings_.add(std::move(f));  // a piece says nothing of the move
     }
   }
+  if (cuts_) cuts_->hand_over();
 }
 
 void ChannelRun::advance(double t1) {

@@ -35,6 +35,8 @@ struct ChannelTimes {
   bool turned_by_other = false;  ///< another channel has started the spindle that it works in
 };
 
+class ChannelCuts;
+class CutListener;
 class TurningCheck;
 
 class ChannelRun {
@@ -49,6 +51,8 @@ class ChannelRun {
   void add_observer(Observer& observer) { observers_.push_back(&observer); }
   /// Sees one channel's own view.
   void add_observer(std::size_t channel, Observer& observer);
+  /// Told of all cuts (sim/cuts.h), if there is a stock that is cut. Before run().
+  void listen_to_cuts(CutListener& listener);
   Simulator::Result run(const RunOptions& options);
 
   const std::vector<ChannelTimes>& times() const { return times_; }
@@ -92,6 +96,7 @@ class ChannelRun {
   std::vector<std::vector<std::size_t>> users_;     ///< by joint: channels that drive it
   std::unique_ptr<Check> collision_;
   std::unique_ptr<TurningCheck> turning_;
+  std::unique_ptr<ChannelCuts> cuts_;  ///< null when nobody listens
   std::vector<Observer*> observers_;
   Findings findings_;
   JointVector joints_;  ///< of the whole machine, now

@@ -15,7 +15,7 @@ struct Cut {
   std::uint64_t block = 0;
   int tool = 0;
   int channel = 0;  ///< whose program it is
-  double rpm = 0;  ///< signed, clockwise positive
+  double rpm = 0;   ///< signed, clockwise positive
   double t0 = 0, t1 = 0;
   JointVector joints;              ///< of the machine, in the middle of the stretch
   Vec3 point = Vec3::Zero();       ///< milled: the tip; turned: where the surface is made

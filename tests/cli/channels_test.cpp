@@ -1,5 +1,9 @@
 // Several channels at once, as a user runs them.
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.h"
 
@@ -140,6 +144,55 @@ TEST_F(Channels, TwoTurretsTurnOneBar) {
   // From radius 30 to 27.5 over 28; the lift at the end of each pass takes a little more.
   const double taken = M_PI * (30. * 30 - 27.5 * 27.5) * 28;
   EXPECT_NEAR(result["stock"]["removed_mm3"].get<double>(), taken, 0.02 * taken);
+}
+
+// The spindle gives way to each turret's thrust. Alone, the upper one leaves what turret and
+// spindle give; with the lower one opposite the spindle stays, and only its own turret gives.
+TEST_F(Channels, TheSecondTurretChangesTheDiameterOfTheFirst) {
+  const Outcome run = aircut(
+      "run -q -m lathe-twin-turret --channel upper=programs/accuracy/twin-upper.ngc"
+      " --channel lower=programs/accuracy/twin-lower.ngc"
+      " --setup programs/channels/twin.setup.toml -t programs/accuracy/twin.tools.toml"
+      " --accuracy programs/accuracy/twin.toml --frames none --log null -o " +
+      path("out"));
+  ASSERT_EQ(run.code, 0) << run.out << run.err;
+  std::istringstream rows(text_of(path("out/accuracy.csv")));
+  std::string line;
+  std::vector<std::string> names;
+  std::map<std::string, std::vector<std::map<std::string, double>>> by_segment;
+  while (std::getline(rows, line)) {
+    std::istringstream cells(line);
+    std::map<std::string, double> row;
+    std::string cell;
+    for (std::size_t i = 0; std::getline(cells, cell, ','); ++i)
+      if (by_segment.empty() && !line.empty() && line[0] == 's')
+        names.push_back(cell);
+      else if (!cell.empty())
+        row[names[i]] = std::stod(cell);
+    if (!row.empty()) by_segment[line.substr(0, line.find(','))].push_back(row);
+  }
+  constexpr double turret = 0.014, spindle = 0.010;  // um/N, programs/accuracy/twin.toml
+  double alone = 0, both = 0;                        // where all that cut have their whole depth
+  for (const auto& [segment, contacts] : by_segment) {
+    if (!std::all_of(contacts.begin(), contacts.end(),
+                     [](const auto& row) { return row.at("t_mm") > 1.4; }))
+      continue;
+    for (const auto& row : contacts) {
+      if (row.at("tool") != 1) continue;
+      const double thrust = std::abs(row.at("F_x_N")), delta = row.at("delta_um");
+      if (contacts.size() == 1) {
+        EXPECT_GT(delta, (turret + spindle) * thrust);  // and the spindle's tilt
+        alone = delta;
+      } else {
+        EXPECT_NEAR(delta, turret * thrust, 0.05 * delta);
+        both = delta;
+      }
+    }
+  }
+  EXPECT_GT(both, 3);
+  EXPECT_GT(alone, 1.8 * both);
+  const json result = json::parse(text_of(path("out/accuracy.json")), nullptr, false);
+  EXPECT_EQ(result["tools"].size(), 2U) << result.dump(1).substr(0, 400);
 }
 
 TEST_F(Channels, ALatheWithOpposedSpindlesWorksOnBothParts) {

@@ -343,7 +343,7 @@ double TurningCheck::cut(const Step& step, const Solid& solid, const StraightMov
   };
   for (const stock::TurningSection& section : solid.sections) {
     const stock::TurningMove here = in_plane(section, move);
-    if (listener_ && insert) cuts_.look(*stock_, here, move.s0, move.s1);
+    if (listener_ && insert) turret_->cuts.look(*stock_, here, move.s0, move.s1);
     std::optional<TurningGouge> gouge;
     if (watch_ && stock_->touch(here).depth > 0)
       gouge = deepest_in_part(here, *watch_->part(), {raw_->diameter / 2, raw_->height},
@@ -457,7 +457,7 @@ void TurningCheck::look_at(const Step& step, Findings& out) {
       for (const Solid& solid : turret_->others) ask(step, move, solid);
     if (!given_up_.empty()) return tell_given_up(step, out);
   }
-  if (listener_) cuts_.hand_over(step, *raw_, turret_->across, stock_->pitch(), *listener_);
+  if (listener_) turret_->cuts.hand_over(step, *raw_, turret_->across, stock_->pitch(), *listener_);
   if (!kind && !step.segment.sync && volume == 0 && plan::length(step.segment.path) > longest_air)
     add_air_cut(step, out);
 }

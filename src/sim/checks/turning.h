@@ -103,13 +103,13 @@ class TurningCheck final : public Check {
     bool tool_read = false, no_tool = true;
     std::string tool_problem;  ///< why it can't be cut with
     Reach reach;
+    TurningCuts cuts;  ///< of the step at hand, and rays that it has not passed yet
   };
   std::vector<std::unique_ptr<Turret>> turrets_;
   Turret* turret_ = nullptr;
   std::vector<StraightMove> moves_;  ///< of the step at hand
   CutRows rows_;
   CutListener* listener_ = nullptr;
-  TurningCuts cuts_;  ///< of the step at hand
   std::string given_up_;
   bool told_ = false;
 };
