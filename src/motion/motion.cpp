@@ -5,6 +5,10 @@
 //
 // Travel: s only grows, so in [ta, tb] the tip stays on the path between s(ta) and s(tb); the
 // path's box and way there go to the kinematics, which bounds every joint over them.
+//
+// A numeric solution could jump to another branch between two places, though each is a solution.
+// Its bound counts only if both ends of the interval lie in the branch that it was proven for:
+// intervals share their ends, so the joints of the whole segment are then one branch.
 #include "motion/motion.h"
 
 #include <algorithm>
@@ -172,8 +176,20 @@ bool JointMotion::travel_bound(double ta, double tb, std::span<double> travel) c
   }
   machine::TipInterval tip = plan::bounds(segment_->path, s0, s1);
   tip.tool_offset = segment_->tool_offset;
+  if (kinematics_->type() == "serial") return numeric_bound(s0, s1, tip, travel);
   tip.near = near_at(s0);
   return kinematics_->travel_bound(tip, travel);
+}
+
+bool JointMotion::numeric_bound(double s0, double s1, machine::TipInterval& tip,
+                                std::span<double> travel) const {
+  const auto q0 = at_path(s0), q1 = at_path(s1);
+  if (!q0 || !q1) return false;
+  tip.near = *q0;
+  if (!kinematics_->travel_bound(tip, travel)) return false;
+  for (Eigen::Index j = 0; j < q0->size(); ++j)
+    if (!(std::abs((*q1)[j] - (*q0)[j]) <= travel[static_cast<std::size_t>(j)])) return false;
+  return true;
 }
 
 }  // namespace aircut::motion

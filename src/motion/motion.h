@@ -68,6 +68,9 @@ class JointMotion {
   JointVector near_at(double s) const;
   tl::expected<JointState, machine::ReachError> whole_state_at(double t) const;
   bool whole_bound(double ta, double tb, std::span<double> travel) const;
+  /// travel_bound() of a kinematics that is solved numerically.
+  bool numeric_bound(double s0, double s1, machine::TipInterval& tip,
+                     std::span<double> travel) const;
 
   /// Joints at even steps along the path, each found from the one before: on long moves the joints
   /// at the start say nothing about the turn or branch at the end.

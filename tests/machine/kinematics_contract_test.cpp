@@ -170,15 +170,6 @@ TEST(KinematicsContract, TravelBoundIsNeverLessThanTheTravelOfDenseSamples) {
   }
 }
 
-TEST(KinematicsContract, HasNoTravelBoundWhereItSaysSo) {
-  for (const Sample& sample : samples()) {
-    if (sample.bounded) continue;
-    std::vector<double> bound(values_of(*sample.kinematics), -1);
-    const TipInterval still{sample.low, sample.low, {}, {}, sample.start()};
-    EXPECT_FALSE(sample.kinematics->travel_bound(still, bound)) << sample.name;
-  }
-}
-
 TEST(KinematicsContract, TravelBoundOfASmallStraightMoveIsClose) {
   for (const Sample& sample : samples()) {
     if (!sample.bounded) continue;

@@ -21,7 +21,7 @@ struct Sample {
   std::shared_ptr<const Kinematics> kinematics;
   AxisValues low, high;              ///< tip poses, all reachable; mm and rad
   JointVector near = JointVector();  ///< starts the search; empty: all zero
-  bool bounded = true;               ///< has travel bounds
+  bool bounded = true;               ///< travel bounds of large boxes, too
   bool tools = true;                 ///< takes a tool length along Z
   /// How far a value may turn back within 0.01 mm, where its slope is zero.
   double turning = 1e-9;

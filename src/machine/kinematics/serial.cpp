@@ -12,11 +12,13 @@
 // Inverse by damped least squares (kinematics.md e.4): with the error e = [Δp; λ·rotation vector],
 // λ = 300 mm/rad,   Δq = Jᵀ(J Jᵀ + μ 1)⁻¹ e,   μ falls when |e| falls and grows when not; values
 // are kept inside their limits. Starts: where the arm is, home, then eight places by a fixed
-// generator. There is no proof that a solution exists between two that were found: travel_bound()
-// has none, so a run can't end with `pass`.
+// generator. Between two solutions that were found the joints' ways are bounded by arm_bound.h, for
+// arms with as many joints as the pose has freedoms; more joints have no proven bound, since what
+// the numeric solution does with the spare one follows no equation.
 #include <Eigen/LU>
 
 #include "base/random.h"
+#include "machine/kinematics/arm_bound.h"
 #include "machine/kinematics/model.h"
 #include "machine/kinematics/parameters.h"
 #include "machine/kinematics/robot.h"
@@ -56,7 +58,7 @@ struct Frame {
   }
 };
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, max_joints>;
+using Matrix = ArmMatrix;
 using Square = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using Column6 = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
@@ -94,8 +96,7 @@ class Serial final : public Kinematics {
     for (const double word : target.tip.value)
       if (!std::isfinite(word)) return unexpected(ReachError{"the pose is no number"});
     const Pose tip_on_flange = with_tool(target.tool_offset);
-    Pose wanted = translation(Vec3(target.tip[Axis::x], target.tip[Axis::y], target.tip[Axis::z]));
-    wanted.linear() = attitude(target.tip);
+    const Pose wanted = wanted_pose(target.tip);
     double least = std::numeric_limits<double>::infinity();
     Random random(0x64687265);  // any fixed seed
     for (int start = 0; start < 10; ++start) {
@@ -163,7 +164,18 @@ class Serial final : public Kinematics {
     return true;
   }
 
-  bool travel_bound(const TipInterval&, std::span<double>) const override { return false; }
+  bool travel_bound(const TipInterval& tip, std::span<double> travel) const override {
+    if (joint_count() != freedom() || wrong_offset(tip.tool_offset)) return false;
+    Target centre{{}, tip.tool_offset};
+    for (const Axis axis : all_axes) {
+      centre.tip[axis] = 0.5 * (tip.low[axis] + tip.high[axis]);
+      if (!std::isfinite(centre.tip[axis])) return false;
+    }
+    JointVector q = tip.near.size() == joint_count() ? tip.near : home_;
+    const Pose tip_on_flange = with_tool(tip.tool_offset);
+    if (!(refine(q, wanted_pose(centre.tip), tip_on_flange) < there_mm)) return false;
+    return bound_arm_travel(arm_at(q, centre, tip_on_flange), tip, travel);
+  }
 
  private:
   static constexpr double there_mm = 1e-9;
@@ -173,6 +185,31 @@ class Serial final : public Kinematics {
     const Vec3 angles(tip[Axis::a], tip[Axis::b], tip[Axis::c]);
     return of_flange_ ? Mat3(about_fixed_axes(angles) * tool_.linear())
                       : matrix_of({{0, 1, 2}, true}, angles);
+  }
+
+  Pose wanted_pose(const AxisValues& tip) const {
+    Pose wanted = translation(Vec3(tip[Axis::x], tip[Axis::y], tip[Axis::z]));
+    wanted.linear() = attitude(tip);
+    return wanted;
+  }
+
+  ArmAt arm_at(const JointVector& q, const Target& target, const Pose& tip_on_flange) const {
+    ArmAt arm;
+    arm.lambda = lambda;
+    const Frame<double> at = frame<double>(q, tip_on_flange);
+    jacobian(q, at, arm.jacobian);
+    frame<double>(q, Pose::Identity(), [&](std::size_t j, const Frame<double>& f) {
+      arm.reach[j] = (vec3(at.p) - vec3(f.p)).norm();
+      arm.rotary[j] = rows_[j].rotary;
+    });
+    arm.words.resize(freedom(), 6);
+    for (std::size_t i = 0; i < 6; ++i) {
+      AxisValues unit;
+      unit[all_axes[i]] = 1;
+      arm.words.col(static_cast<Eigen::Index>(i)) =
+          motion_of(wanted_frame(target, unit, {}), at).first;
+    }
+    return arm;
   }
 
   int freedom() const { return rows_.size() >= 6 ? 6 : rows_.size() == 5 ? 5 : 3; }
