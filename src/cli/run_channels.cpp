@@ -128,43 +128,6 @@ void add_diagnostics(const Running& r, const sim::ChannelTimes& times, const Che
     }
 }
 
-report::RunReport report_of(const RunArguments& a, const Job& job, const Checks& checks,
-                            sim::Simulator::Result result) {
-  const machine::Machine& machine = *job.machine;
-  report::RunReport report;
-  report.version = AIRCUT_VERSION;
-  report.fail_on = a.output.fail_on;
-  report.machine = machine.name();
-  report.inputs = job.inputs;
-  report.checks = {"syntax"};
-  if (checks.semantics) report.checks.push_back("semantics");
-  if (checks.limits) report.checks.push_back("limits");
-  if (checks.collision) report.checks.push_back("collision");
-  if (checks.cut && machine.stock()) report.checks.push_back("cut");
-  report.settings = {{"near_mm", a.near},
-                     {"period_s", a.period},
-                     {"resolution_mm", machine.collision_tolerance()}};
-  report.summary = std::move(result.summary);
-  report.findings = std::move(result.findings);
-  report.diagnostics = job.diagnostics.list();
-  if (checks.collision) {
-    Diagnostics model;
-    machine::check_model(machine, model);
-    for (const Diagnostic& d : model.list())
-      if (d.kind == "mesh_defect") {
-        report.diagnostics.push_back(d);
-        report.summary.unchecked.push_back(d.message);
-      }
-  }
-  report.folder = working_folder();
-  for (int j = 0; j < machine.joint_count(); ++j) {
-    const machine::Joint& joint = machine.joint(machine::JointId{j});
-    report.joint_names.push_back(joint.name);
-    report.joint_rotary.push_back(joint.kind == machine::JointKind::rotary);
-  }
-  return report;
-}
-
 }  // namespace
 
 int run_channels(const RunArguments& a) {

@@ -235,6 +235,46 @@ std::vector<std::string> unchecked_of(const Job& job, const Checks& checks) {
 
 }  // namespace
 
+report::RunReport report_of(const RunArguments& a, const Job& job, const Checks& checks,
+                            sim::Simulator::Result result) {
+  const machine::Machine& machine = *job.machine;
+  report::RunReport report;
+  report.version = AIRCUT_VERSION;
+  report.fail_on = a.output.fail_on;
+  report.machine = machine.name();
+  report.inputs = job.inputs;
+  report.folder = working_folder();
+  report.checks = {"syntax"};
+  if (checks.semantics) report.checks.push_back("semantics");
+  if (checks.limits) report.checks.push_back("limits");
+  if (checks.collision) report.checks.push_back("collision");
+  if (checks.cut && machine.stock()) report.checks.push_back("cut");
+  report.settings = {{"near_mm", a.near},
+                     {"period_s", a.period},
+                     {"resolution_mm", machine.collision_tolerance()}};
+  report.summary = std::move(result.summary);
+  report.findings = std::move(result.findings);
+  report.diagnostics = job.diagnostics.list();
+  for (const std::string& what : unchecked_of(job, checks))
+    report.summary.unchecked.push_back(what);
+  if (checks.collision) {
+    // An open mesh is checked by its surface only; what enters through a hole is not seen.
+    Diagnostics model;
+    machine::check_model(machine, model);
+    for (const Diagnostic& d : model.list())
+      if (d.kind == "mesh_defect") {
+        report.diagnostics.push_back(d);
+        report.summary.unchecked.push_back(d.message);
+      }
+  }
+  for (int j = 0; j < machine.joint_count(); ++j) {
+    const machine::Joint& joint = machine.joint(machine::JointId{j});
+    report.joint_names.push_back(joint.name);
+    report.joint_rotary.push_back(joint.kind == machine::JointKind::rotary);
+  }
+  return report;
+}
+
 Expected<report::FrameOptions> frame_options(const RunArguments& a) {
   report::FrameOptions options;
   const auto view = view_of(a.view);
@@ -411,49 +451,16 @@ int run_command(const RunArguments& a, RunOutcome* outcome) {
   result.summary.unchecked.insert(result.summary.unchecked.end(), meaning.unchecked().begin(),
                                   meaning.unchecked().end());
 
-  report::RunReport report;
-  report.version = AIRCUT_VERSION;
-  report.fail_on = a.output.fail_on;
-  report.machine = machine.name();
-  report.inputs = job.inputs;
-  report.checks = {"syntax"};
-  if (checks.semantics) report.checks.push_back("semantics");
-  if (checks.limits) report.checks.push_back("limits");
-  if (checks.collision) report.checks.push_back("collision");
-  if (checks.cut && machine.stock()) report.checks.push_back("cut");
-  report.settings = {{"near_mm", a.near},
-                     {"period_s", a.period},
-                     {"resolution_mm", machine.collision_tolerance()}};
-  report.summary = result.summary;
-  report.diagnostics = job.diagnostics.list();
-  for (const std::string& what : unchecked_of(job, checks))
-    report.summary.unchecked.push_back(what);
-  if (checks.collision) {
-    // An open mesh is checked by its surface only; what enters through a hole is not seen.
-    Diagnostics model;
-    machine::check_model(machine, model);
-    for (const Diagnostic& d : model.list())
-      if (d.kind == "mesh_defect") {
-        report.diagnostics.push_back(d);
-        report.summary.unchecked.push_back(d.message);
-      }
-  }
+  report::RunReport report = report_of(a, job, checks, std::move(result));
   for (const Diagnostics* list : {&diagnostics, &doubts})
     for (const Diagnostic& d : list->list())
-      if (d.kind == "spindle_stopped_cut" && result.summary.stock)
+      if (d.kind == "spindle_stopped_cut" && report.summary.stock)
         continue;  // the cut check knows better: it has looked whether there is material
       else if (checks.semantics || !semantics::is_semantic(d.kind))
         report.diagnostics.push_back(d);
-  report.findings = std::move(result.findings);
   accuracy.finish(report);
-  report.folder = working_folder();
-  if (interpreter.statistics().limit_reached || result.summary.limit_reached)
+  if (interpreter.statistics().limit_reached || report.summary.limit_reached)
     report.unknown_cause = "limit";
-  for (int j = 0; j < machine.joint_count(); ++j) {
-    const machine::Joint& joint = machine.joint(machine::JointId{j});
-    report.joint_names.push_back(joint.name);
-    report.joint_rotary.push_back(joint.kind == machine::JointKind::rotary);
-  }
   report.held_by = line_times.held();
   report.operations = operations.list();
   report.planner = planner.statistics();
